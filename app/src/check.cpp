@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "claim_report.hpp"
+#include "command.hpp"
+#include "hexact/io/mesh_file.hpp"
+#include "hexact/kernel/errors.hpp"
+
+#include <memory>
+#include <variant>
+
+namespace hexact::app {
+namespace {
+
+struct CheckOptions {
+  std::string certificate, mesh;
+};
+
+Outcome check(const CheckOptions& options) {
+  const io::Geometry geometry = io::read_geometry(options.certificate);
+  const auto* certificate = std::get_if<Certificate>(&geometry);
+  if (certificate == nullptr || certificate->claims.empty()) {
+    throw InvalidInput("NoClaims", options.certificate + " has no claims; hexact certify proves some and writes them", "");
+  }
+  std::vector<ClaimVerdict> verdicts = verify(*certificate);
+  if (!options.mesh.empty()) {
+    const io::Geometry mesh = io::read_geometry(options.mesh);
+    const auto* soup = std::get_if<PolygonSoup<Rational>>(&mesh);
+    if (soup == nullptr) throw InvalidInput("NotAMesh", options.mesh + " is no mesh of rounded coordinates", "");
+    const std::string difference = mesh_difference(certificate->body, *soup);
+    verdicts.push_back({"mesh", difference.empty() ? Verdict::proved : Verdict::refuted, difference});
+  }
+  return claim_outcome(verdicts);
+}
+
+}  // namespace
+
+void add_check(const Registry& registry) {
+  const auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = registry.add("check", "Verify a certificate again, and that a mesh is its correct rounding");
+  command->add_option("certificate", options->certificate, "Certificate")->required();
+  command->add_option("mesh", options->mesh, "Mesh whose every coordinate must be the double nearest to the exact one");
+  command->callback([&registry_selected = registry.selected, options] { registry_selected = [options] { return check(*options); }; });
+}
+
+}  // namespace hexact::app

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "command.hpp"
+
+#include "hexact/exact/plane_body.hpp"
+#include "hexact/io/mesh_file.hpp"
+
+#include <string>
+
+namespace hexact::app {
+
+/// Where a subcommand writes its result, and as what.
+struct OutputChoice {
+  std::string path;
+  io::Format format = io::Format::planes;
+  io::MeshWriteOptions mesh;
+};
+
+/// The format by the name given with --to, else by the ending of the path. Throws UsageError when neither tells, for
+/// an unknown name, and for --json with standard output as the place of the result.
+[[nodiscard]] OutputChoice choose_output(const std::string& path, const std::string& to, const Common& common);
+/// What writing did to the numbers.
+struct WrittenGeometry {
+  bool exact = false;       ///< the file holds the exact result
+  double max_rounding = 0;  ///< upper bound of the distance between exact and written vertices
+};
+/// Writes a body, exactly as `.planes` and with correctly rounded vertices in mesh formats; triangles of STL are
+/// float32. Throws FileError, InvalidInput (NotRepresentable), UsageError for certificates.
+WrittenGeometry write_geometry(const OutputChoice& output, const PlaneBody& body);
+/// Writes polygons; as `.planes` they must bound a solid of exactly planar facets.
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Rational>& soup);
+
+}  // namespace hexact::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "hexact/exact/honeycomb.hpp"
+#include "hexact/exact/plane_body.hpp"
+#include "hexact/exact/policies.hpp"
+#include "hexact/exact/snapped_honeycomb.hpp"
+#include "hexact/kernel/honeycomb_double.hpp"
+#include "hexact/kernel/honeycomb_statistics.hpp"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace hexact::app {
+
+/// What is reported about one step beside the measures; empty where the arithmetic does not give it.
+struct StepReport {
+  std::string delta;                      ///< the exact number
+  std::optional<double> least_delta;      ///< snapped: proven lower bound of delta
+  std::optional<double> parameter_change; ///< snapped: proven upper bound
+  std::optional<double> min_parameter;    ///< snapped: proven lower bound
+  double seconds = 0;
+};
+
+/// One level of a honeycomb in any arithmetic, and how it is refined.
+class Refinement {
+ public:
+  /// Throws InvalidInput where the body does not suit the arithmetic.
+  Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bits);
+
+  /// Replaces the level by the next one, all exact conditions decided. Throws InvalidInput naming the violation.
+  StepReport advance(const PolicySchedule& schedule);
+
+  [[nodiscard]] const HoneycombMap& map() const;
+  /// The level as an exact body. Precondition: the arithmetic is exact.
+  [[nodiscard]] PlaneBody body() const;
+  /// Rounded vertices in file coordinates (exactly rounded where the arithmetic is exact).
+  [[nodiscard]] RoundedVertices vertices() const;
+  [[nodiscard]] HoneycombStatistics statistics() const;
+  [[nodiscard]] bool is_exact() const { return !std::holds_alternative<DoubleLevel>(level_); }
+
+ private:
+  std::variant<SnappedLevel, HoneycombLevel<Rational>, HoneycombLevel<QuadraticField>, DoubleLevel> level_;
+  SnappedOptions snapped_;
+};
+
+/// Facet addresses of a level.
+[[nodiscard]] std::vector<FacetAddress> addresses_of(const HoneycombMap& map);
+
+}  // namespace hexact::app

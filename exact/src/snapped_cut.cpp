@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "snapped_cut.hpp"
+
+#include "homogeneous.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexact::detail {
+namespace {
+
+using Vector = Point3<double>;
+
+Vector operator-(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double norm1(const Vector& a) { return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z); }
+
+/// Widths of a plane: bits of the normal, and fraction bits of the offset by which all coefficients are scaled.
+struct Widths {
+  int normal;
+  int fraction;
+};
+
+/// Rounding tilts the plane by 2^-(B−1) and moves it by 2^-(B−1+s): both have to stay 2^-guard below the depth.
+Widths choose_widths(int log_slenderness, int log_depth, int guard) {
+  const int by_tilt = log_slenderness + 1 + guard + 1;
+  const int by_offset = guard - log_depth + 1;
+  const int both = std::max({by_tilt, by_offset, 8});
+  const int spare = guard - kLeastGuard;
+  if (both - spare <= kShortNormal) return {std::min(both, kShortNormal), 0};
+  return {std::max(by_tilt, 8), std::max(0, by_offset - std::max(by_tilt, 8))};
+}
+
+using Fixed = Point3<Integer>;  // coordinates times 2^precision
+
+Fixed operator-(const Fixed& a, const Fixed& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Integer dot(const Fixed& a, const Fixed& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Fixed cross(const Fixed& a, const Fixed& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+Integer magnitude(const Integer& a) { return a.sign() < 0 ? -a : a; }
+Integer norm1(const Fixed& a) { return magnitude(a.x) + magnitude(a.y) + magnitude(a.z); }
+Integer largest(const Fixed& a) { return std::max({magnitude(a.x), magnitude(a.y), magnitude(a.z)}); }
+long log2(const Integer& a) { return static_cast<long>(a.bit_length()) - 1; }
+
+/// Each coordinate rounded down: off by less than one unit.
+Fixed to_fixed(const HomogeneousPoint& p, unsigned long precision) {
+  return {floor_quotient(p.x.shifted_left(precision), p.w), floor_quotient(p.y.shifted_left(precision), p.w),
+          floor_quotient(p.z.shifted_left(precision), p.w)};
+}
+
+/// λ·a + (1 − λ)·b, off by less than two units.
+Fixed mix(const Rational& lambda, const Fixed& a, const Fixed& b) {
+  if (lambda.is_zero()) return b;
+  const Integer p = lambda.numerator(), q = lambda.denominator(), r = q - p;
+  const auto coordinate = [&](const Integer& s, const Integer& t) { return floor_quotient(p * s + r * t, q); };
+  return {coordinate(a.x, b.x), coordinate(a.y, b.y), coordinate(a.z, b.z)};
+}
+
+/// x·2^bits / size to the nearest integer; size > 0.
+Integer rounded_quotient(const Integer& x, const Integer& size, unsigned long bits) {
+  return floor_quotient(x.shifted_left(bits + 1) + size, size.shifted_left(1));
+}
+
+/// a / b for b > 0 to about 2^-51 relative.
+double ratio(const Integer& a, const Integer& b) {
+  long ea = 0, eb = 0;
+  const double ma = mpz_get_d_2exp(&ea, a.raw());
+  const double mb = mpz_get_d_2exp(&eb, b.raw());
+  return std::ldexp(ma / mb, static_cast<int>(std::clamp(ea - eb, -2000L, 2000L)));
+}
+
+/// One attempt with coordinates of `precision` fraction bits.
+std::optional<WideChoice> cut_with_precision(const ExactCorner& corner, int guard_bits, unsigned long precision) {
+  const Fixed v = to_fixed(corner.v, precision);
+  std::array<Fixed, 3> w, c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    w[i] = to_fixed(corner.w[i], precision);
+    c[i] = mix(corner.lambda[i], v, w[i]);
+  }
+  const Fixed e1 = c[1] - c[0], e2 = c[2] - c[0];
+  const Fixed normal = cross(e1, e2);
+  const Integer size = largest(normal);
+  const Integer height = dot(normal, v - c[0]);  // depth of the cut times |normal|
+  Integer distance(1);
+  for (const Fixed& q : w) distance = std::max(distance, largest(q - v));
+  const long span = std::max(log2(largest(e1)), log2(largest(e2))) + 1;
+  // Points are off by two units, so the normal by about 2^(span+4); over `distance` that must not hide the depth.
+  if (height.sign() <= 0 || log2(height) < span + 4 + log2(distance) + 12) return std::nullopt;
+  const long log_depth = log2(height) - log2(size);
+  if (log_depth < 16) return std::nullopt;
+  const long bits = std::max<long>(8, log2(distance) - log_depth + guard_bits + 2);
+  const auto width = static_cast<unsigned long>(bits);
+  const Fixed n{rounded_quotient(normal.x, size, width), rounded_quotient(normal.y, size, width),
+                rounded_quotient(normal.z, size, width)};
+  const Integer margin = norm1(n) * Integer(2);
+  std::array<Integer, 3> at_cut, at_w;
+  for (std::size_t i = 0; i < 3; ++i) {
+    at_cut[i] = dot(n, c[i]);
+    at_w[i] = dot(n, w[i]);
+  }
+  const Integer at_v = dot(n, v);
+  const Integer asked = std::max({at_cut[0], at_cut[1], at_cut[2]}) + margin;
+  if (!(asked + margin < at_v)) return std::nullopt;
+  // The offset keeps `guard_bits` below the height of v over the plane.
+  const long coarse = std::min<long>(static_cast<long>(precision), log2(at_v - asked) - guard_bits);
+  if (coarse < 0) return std::nullopt;
+  Integer offset;
+  mpz_cdiv_q_2exp(offset.raw(), asked.raw(), static_cast<unsigned long>(coarse));
+  const Integer d = offset.shifted_left(static_cast<unsigned long>(coarse));
+  if (!(d + margin < at_v)) return std::nullopt;
+  WideChoice choice{{}, 0, 1, static_cast<int>(bits)};
+  const Integer slack = margin * Integer(4);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Integer rise = at_v - at_w[i];
+    if (!(rise > slack)) return std::nullopt;
+    choice.change = std::max(choice.change, ratio(d - at_cut[i] + margin, rise - slack) * (1 + 0x1p-40));
+    choice.min_parameter = std::min(
+        choice.min_parameter, std::max(0.0, ratio(d - at_w[i] - margin, rise + slack) * (1 - 0x1p-40)));
+  }
+  if (!(choice.change < kLargestChange)) return std::nullopt;
+  const auto fraction = precision - static_cast<unsigned long>(coarse);
+  choice.plane = {n.x.shifted_left(fraction), n.y.shifted_left(fraction), n.z.shifted_left(fraction), offset};
+  return choice;
+}
+
+}  // namespace
+
+std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard_bits) {
+  std::array<Vector, 3> c;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double t = corner.lambda[i];
+    const double s = 1 - t;
+    c[i] = t == 0 ? corner.w[i]
+                  : Vector{t * corner.v.x + s * corner.w[i].x, t * corner.v.y + s * corner.w[i].y,
+                           t * corner.v.z + s * corner.w[i].z};
+  }
+  // Coordinates are at most 2^18: the four roundings of a cut point move it by less than 2^-32 in each coordinate.
+  const double error = corner.error + 0x1p-32;
+  const Vector e1 = c[1] - c[0], e2 = c[2] - c[0];
+  const Vector normal = cross(e1, e2);
+  const double length = std::sqrt(dot(normal, normal));
+  const double depth = dot(normal, corner.v - c[0]) / length;
+  const double span = std::max({norm1(e1), norm1(e2), norm1(c[2] - c[1])});
+  double distance = 0;
+  for (const Vector& w : corner.w) distance = std::max(distance, norm1(w - corner.v));
+  // The direction is known to about error·span/length; its effect over `distance` has to stay well below the depth.
+  if (!(depth > 0) || !(64 * error * span * distance < depth * length) || !(256 * error < depth)) return std::nullopt;
+  const Widths widths = choose_widths(std::ilogb(distance / depth), std::ilogb(depth), guard_bits);
+  if (widths.normal > 40 || widths.normal + widths.fraction + kRangeBits + 2 > 62) return std::nullopt;
+
+  const double scale = std::ldexp(1.0, widths.normal - 1) / length;
+  const Vector n{std::nearbyint(normal.x * scale), std::nearbyint(normal.y * scale), std::nearbyint(normal.z * scale)};
+  std::array<double, 3> at_cut, at_w;
+  for (std::size_t i = 0; i < 3; ++i) {
+    at_cut[i] = dot(n, c[i]);
+    at_w[i] = dot(n, corner.w[i]);
+  }
+  const double at_v = dot(n, corner.v);
+  // |n|₁·error for the points, and five roundings of sums below |n|₁·2^18.
+  const double margin = norm1(n) * (error + 0x1p-32);
+  const double unit = std::ldexp(1.0, widths.fraction);
+  const double offset = std::ceil((std::max({at_cut[0], at_cut[1], at_cut[2]}) + margin) * unit);
+  if (!(std::fabs(offset) < 0x1p61)) return std::nullopt;
+  const double d = offset / unit;
+  // The quotient of an integer below 2^53 by a power of two is exact; above, the error is below the margin.
+  if (!(at_v - 2 * margin > d)) return std::nullopt;
+  CutChoice choice{{}, 0, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double height = at_v - at_w[i];
+    if (!(height > 8 * margin)) return std::nullopt;
+    choice.change = std::max(choice.change, (d - at_cut[i] + 2 * margin) / (height - 4 * margin) * (1 + 0x1p-40) + 0x1p-50);
+    choice.min_parameter =
+        std::min(choice.min_parameter, std::max(0.0, (d - at_w[i] - 2 * margin) / (height + 4 * margin) * (1 - 0x1p-40)));
+  }
+  if (!(choice.change < kLargestChange)) return std::nullopt;
+  const double factor = unit;
+  choice.plane = {static_cast<std::int64_t>(n.x * factor), static_cast<std::int64_t>(n.y * factor),
+                  static_cast<std::int64_t>(n.z * factor), static_cast<std::int64_t>(offset)};
+  return choice;
+}
+
+WideChoice cut_in_fixed_point(const ExactCorner& corner, int guard_bits) {
+  for (unsigned long precision = 256;; precision *= 2) {
+    if (auto choice = cut_with_precision(corner, guard_bits, precision)) return *choice;
+    HEXACT_INVARIANT(precision < (1UL << 24));  // a million times the width of any corner seen
+  }
+}
+
+}  // namespace hexact::detail

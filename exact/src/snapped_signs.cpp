@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hexact/exact/snapped_honeycomb.hpp"
+#include "plane_determinants.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexact {
+namespace {
+
+using Violations = std::vector<SignViolation>;
+
+/// Sign of component `axis` of n_f × n_g.
+int direction_sign(const IntegerPlanes& planes, std::size_t f, std::size_t g, int axis) {
+  const int i = (axis + 1) % 3;
+  const int j = (axis + 2) % 3;
+  if (planes.is_narrow(f) && planes.is_narrow(g)) {
+    const auto& p = planes.narrow(f);
+    const auto& q = planes.narrow(g);
+    const __int128 x = static_cast<__int128>(p[static_cast<std::size_t>(i)]) * q[static_cast<std::size_t>(j)] -
+                       static_cast<__int128>(p[static_cast<std::size_t>(j)]) * q[static_cast<std::size_t>(i)];
+    return x > 0 ? 1 : x < 0 ? -1 : 0;
+  }
+  const auto p = detail::big_row(planes[f]);
+  const auto q = detail::big_row(planes[g]);
+  return (p[static_cast<std::size_t>(i)] * q[static_cast<std::size_t>(j)] -
+          p[static_cast<std::size_t>(j)] * q[static_cast<std::size_t>(i)]).sign();
+}
+
+/// An axis along which facet f is not perpendicular to all its edges: not that of the largest coefficient.
+int turning_axis(const IntegerPlanes& planes, std::size_t f) {
+  std::array<double, 3> n;
+  if (planes.is_narrow(f)) {
+    const auto& p = planes.narrow(f);
+    n = {std::fabs(static_cast<double>(p[0])), std::fabs(static_cast<double>(p[1])),
+         std::fabs(static_cast<double>(p[2]))};
+  } else {
+    const auto& p = planes.wide(f);
+    n = {static_cast<double>(p.a.bit_length()), static_cast<double>(p.b.bit_length()),
+         static_cast<double>(p.c.bit_length())};
+  }
+  return static_cast<int>((std::max_element(n.begin(), n.end()) - n.begin() + 1) % 3);
+}
+
+/// The edge directions of a polygon that turns once change their sign along any axis exactly twice.
+bool turns_once(const HoneycombMap& map, const IntegerPlanes& planes, std::uint32_t f) {
+  const int axis = turning_axis(planes, f);
+  int first = 0, last = 0, changes = 0;
+  const std::uint32_t start = map.facet_start(f);
+  for (std::uint32_t h = start; h < start + map.facet_size(f); ++h) {
+    const int s = direction_sign(planes, f, map.facet(map.twin(h)), axis);
+    if (s == 0) continue;
+    if (first == 0) first = s;
+    if (last != 0 && s != last) ++changes;
+    last = s;
+  }
+  if (first != last) ++changes;
+  return changes == 2;
+}
+
+void check_vertex(const HoneycombMap& map, const IntegerPlanes& planes, std::uint32_t v, Violations& out) {
+  const auto star = map.star(v);
+  const std::array<std::uint32_t, 3> f = {map.facet(star[0]), map.facet(star[1]), map.facet(star[2])};
+  if (detail::sign_det3(planes, f[0], f[1], f[2]) <= 0) out.push_back({SignViolation::Kind::corner, v});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t h = star[i];
+    if (h > map.twin(h)) continue;  // both ends give the same determinant
+    const std::uint32_t far = map.facet(map.twin(map.next(h)));
+    if (detail::sign_det4(planes, f[0], f[1], f[2], far) <= 0) out.push_back({SignViolation::Kind::edge, h});
+  }
+}
+
+template <class Check>
+Violations collect(std::size_t count, std::size_t limit, const Check& check) {
+  return tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 1 << 13), Violations{},
+      [&](const tbb::blocked_range<std::uint32_t>& range, Violations found) {
+        for (std::uint32_t i = range.begin(); i != range.end() && found.size() < limit; ++i) check(i, found);
+        return found;
+      },
+      [&](Violations a, const Violations& b) {
+        a.insert(a.end(), b.begin(), b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), limit - std::min(limit, a.size()))));
+        return a;
+      });
+}
+
+}  // namespace
+
+std::vector<SignViolation> sign_violations(const HoneycombMap& map, const IntegerPlanes& planes, std::size_t limit) {
+  HEXACT_EXPECTS(planes.size() == map.facet_count());
+  Violations found = collect(map.vertex_count(), limit, [&](std::uint32_t v, Violations& out) {
+    check_vertex(map, planes, v, out);
+  });
+  const Violations turning = collect(map.facet_count(), limit, [&](std::uint32_t f, Violations& out) {
+    if (!turns_once(map, planes, f)) out.push_back({SignViolation::Kind::turning, f});
+  });
+  found.insert(found.end(), turning.begin(), turning.end());
+  if (found.size() > limit) found.resize(limit);
+  return found;
+}
+
+Finding explain(const SignViolation& violation, const HoneycombMap& map) {
+  const std::string level = " at level " + std::to_string(map.level());
+  if (violation.kind == SignViolation::Kind::corner) {
+    return {"NotConvex", "is not a proper convex corner" + level, "vertex " + std::to_string(violation.element), {}};
+  }
+  if (violation.kind == SignViolation::Kind::turning) {
+    return {"NotConvex", "does not turn exactly once" + level, "facet " + std::to_string(violation.element), {}};
+  }
+  const std::uint32_t h = violation.element;
+  const std::uint32_t facet = std::min(map.facet(h), map.facet(map.twin(h)));
+  if (map.level() > 0 && facet < map.base_facet_count() && map.facet_size(facet) <= 4) {
+    const bool triangle = map.facet_size(facet) == 3;
+    return {triangle ? "TriangleOvercut" : "QuadCollapse", "collapses" + level, "facet " + std::to_string(facet), {}};
+  }
+  return {map.level() > 0 ? "EdgeCollapse" : "NotConvex",
+          (map.level() > 0 ? "collapses" : "is not strictly convex") + level,
+          "edge " + std::to_string(map.origin(h)) + "-" + std::to_string(map.target(h)), {}};
+}
+
+}  // namespace hexact

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "mesh_writers.hpp"
+#include "number_text.hpp"
+
+#include "hexact/kernel/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hexact::io {
+namespace {
+
+std::string& append_point(std::string& text, const Point3<double>& p) {
+  append_double(text, p.x).push_back(' ');
+  append_double(text, p.y).push_back(' ');
+  return append_double(text, p.z);
+}
+
+std::size_t facet_count(const MeshView& mesh) {
+  std::size_t facets = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) facets += mesh.facets[f].empty() ? 0 : 1;
+  return facets;
+}
+
+std::string unit_comment(const MeshWriteOptions& options) {
+  return options.unit.empty() ? std::string() : "# unit " + options.unit + "\n";
+}
+
+void append_17_digits(std::string& text, double value) {
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value, std::chars_format::general, 17);
+  text.append(buffer, result.ptr);
+}
+
+}  // namespace
+
+std::string obj_text(const MeshView& mesh, const MeshWriteOptions& options) {
+  std::string text = unit_comment(options);
+  for (const auto& p : mesh.points) append_point(text += "v ", p).push_back('\n');
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (mesh.facets[f].empty()) continue;
+    if (!mesh.addresses.empty()) {
+      const FacetAddress& address = mesh.addresses[f];
+      append_integer(text += "g f", address.level).push_back('_');
+      if (address.parent) {
+        append_integer(text, index(*address.parent));
+      } else {
+        text.push_back('-');
+      }
+      text.push_back('\n');
+    }
+    text.push_back('f');
+    for (const VertexId v : mesh.facets[f]) append_integer(text += ' ', index(v) + 1);
+    text.push_back('\n');
+  }
+  return text;
+}
+
+std::string off_text(const MeshView& mesh, const MeshWriteOptions& options) {
+  const std::vector<Colour> colours = facet_colours(mesh, options.color);
+  std::string text = "OFF\n" + unit_comment(options);
+  append_integer(text, mesh.points.size()).push_back(' ');
+  append_integer(text, facet_count(mesh)) += " 0\n";
+  for (const auto& p : mesh.points) append_point(text, p).push_back('\n');
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (mesh.facets[f].empty()) continue;
+    append_integer(text, mesh.facets[f].size());
+    for (const VertexId v : mesh.facets[f]) append_integer(text += ' ', index(v));
+    if (!colours.empty()) {
+      for (const std::uint8_t channel : colours[f]) append_integer(text += ' ', static_cast<int>(channel));
+    }
+    text.push_back('\n');
+  }
+  return text;
+}
+
+/// Faces are clockwise seen from outside, as OpenSCAD wants them.
+std::string scad_text(const MeshView& mesh, const MeshWriteOptions& options) {
+  std::string text = options.unit.empty() ? std::string() : "// unit " + options.unit + "\n";
+  text += "polyhedron(\n  points = [\n";
+  for (const auto& p : mesh.points) {
+    append_17_digits(text += "    [", p.x);
+    append_17_digits(text += ", ", p.y);
+    append_17_digits(text += ", ", p.z);
+    text += "],\n";
+  }
+  text += "  ],\n  faces = [\n";
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const auto loop = mesh.facets[f];
+    if (loop.empty()) continue;
+    text += "    [";
+    for (std::size_t i = loop.size(); i-- > 0;) append_integer(text, index(loop[i])) += i == 0 ? "],\n" : ", ";
+  }
+  return text += "  ],\n  convexity = 10\n);\n";
+}
+
+std::string mesh_text(Format format, const MeshView& mesh, const MeshWriteOptions& options) {
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const auto& p = mesh.points[v];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw InvalidInput("NotRepresentable", "a coordinate is beyond the range of a double", "vertex " + std::to_string(v));
+    }
+  }
+  switch (format) {
+    case Format::obj: return obj_text(mesh, options);
+    case Format::off: return off_text(mesh, options);
+    case Format::ply: return ply_text(mesh, options);
+    case Format::ply_ascii: return ply_ascii_text(mesh, options);
+    case Format::stl: return stl_text(mesh);
+    case Format::stl_ascii: return stl_ascii_text(mesh);
+    case Format::scad: return scad_text(mesh, options);
+    case Format::planes:
+    case Format::certificate: break;
+  }
+  throw InvalidInput("NotRepresentable", "a mesh of rounded points has no exact planes to be written", "");
+}
+
+}  // namespace hexact::io

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "hexact/kernel/facet_loops.hpp"
+#include "hexact/kernel/ids.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace hexact {
+
+/// A point or vector with coordinates in the field S.
+template <class S>
+struct Point3 {
+  S x{}, y{}, z{};
+  friend bool operator==(const Point3&, const Point3&) = default;
+};
+
+/// Where a facet comes from: the level that made it and the vertex of the level before that was cut.
+/// Facets of level 0 have no parent. The address never changes in later levels.
+struct FacetAddress {
+  std::uint32_t level = 0;
+  std::optional<VertexId> parent;
+  friend bool operator==(const FacetAddress&, const FacetAddress&) = default;
+};
+
+/// Polygons as they were read: nothing about their shape or connectivity is promised.
+template <class S>
+struct PolygonSoup {
+  std::vector<Point3<S>> points;
+  FacetLoops facets;
+  std::vector<FacetAddress> addresses;  ///< empty, or one for each facet
+};
+
+}  // namespace hexact
