@@ -19,6 +19,8 @@ if(BUILD_SHARED_LIBS)
 else()
   set(HEXACT_PC_LIBS "-lfmt -lgmp -ltbb -pthread")
 endif()
+# Relative to the .pc file, so that `cmake --install --prefix` and a moved tree stay right.
+file(RELATIVE_PATH HEXACT_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 configure_file(cmake/hexact.pc.in ${CMAKE_CURRENT_BINARY_DIR}/hexact.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hexact-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/hexact-config-version.cmake
