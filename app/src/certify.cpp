@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <iostream>
 #include <memory>
 #include <variant>
 
@@ -80,38 +81,45 @@ Outcome refute_polygons(const PolygonSoup<Rational>& soup, const std::vector<Cla
   return claim_outcome(verdicts, shape.planar ? "" : "rounded decimals are not planar; exactness lives in .planes files");
 }
 
+/// Claims that speak of a solid, which Boolean operations can decide; the others speak of loops and planes.
+bool in_reach_of_nef(const Claim& claim) {
+  return claim.name == "convex" || claim.name == "inside" || claim.name == "corner-cut-of";
+}
+
 #ifdef HEXACT_WITH_NEF
-ClaimVerdict by_nef(const Certificate& certificate, const Claim& claim) {
+ClaimVerdict by_nef(const Certificate& certificate, const Claim& claim, const Common& common) {
+  NefOptions options;
+  if (common.max_facets != 0) options.max_facets = common.max_facets;
+  const PlaneBody& body = certificate.body;
+  if (!common.quiet && body.plane_count() > 100) {
+    std::cerr << "hexact: " << claim_text(claim) << " by Nef polyhedra, " << nef_cost_estimate(body.plane_count()) << "\n";
+  }
+  if (claim.name == "convex") return nef_convex(body, options);
   const auto reference = std::find_if(certificate.bodies.begin(), certificate.bodies.end(),
                                       [&](const NamedBody& b) { return b.name == claim.reference; });
-  ClaimVerdict v{claim_text(claim), Verdict::undecided, "the engine nef decides convex, inside and corner-cut-of"};
-  if (claim.name == "convex") v = nef_convex(certificate.body);
-  if (claim.name == "inside") v = nef_inside(certificate.body, reference->body);
-  if (claim.name == "corner-cut-of") v = nef_corner_cut(reference->body, certificate.body);
-  v.claim = claim_text(claim);
-  return v;
+  if (claim.name == "inside") return nef_inside(body, reference->body, options);
+  return nef_corner_cut(reference->body, body, options);
 }
 #else
-ClaimVerdict by_nef(const Certificate&, const Claim& claim) {
-  return {claim_text(claim), Verdict::undecided, "this hexact was built without the engine nef"};
+ClaimVerdict by_nef(const Certificate&, const Claim&, const Common&) {
+  return {"", Verdict::undecided, "this hexact was built without the engine nef"};
 }
 #endif
 
-/// Both engines: refuted by either is refuted; what nef cannot decide at all rests on the planes.
-ClaimVerdict combined(const ClaimVerdict& planes, const ClaimVerdict& nef, const Claim& claim) {
-  const bool in_reach = claim.name == "convex" || claim.name == "inside" || claim.name == "corner-cut-of";
-  if (planes.verdict != Verdict::proved || !in_reach) return planes;
-  return nef;
-}
-
-std::vector<ClaimVerdict> decide(const Certificate& certificate, const std::string& engine) {
+/// Nef decides what is in its reach; `both` asks for agreement. The claims about loops and planes rest on the signs.
+std::vector<ClaimVerdict> decide(const Certificate& certificate, const std::string& engine, const Common& common) {
   std::vector<ClaimVerdict> verdicts = verify(certificate);
   if (engine == "planes") return verdicts;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    ClaimVerdict nef{verdicts[i].claim, Verdict::undecided, "the engine nef works over Q only"};
-    if (certificate.body.field == Field::rational) nef = by_nef(certificate, certificate.claims[i]);
-    if (engine == "nef") verdicts[i] = nef;
-    else verdicts[i] = combined(verdicts[i], nef, certificate.claims[i]);
+    const Claim& claim = certificate.claims[i];
+    // Nef sees a solid; loops that bound none are refuted by the signs already.
+    if (!in_reach_of_nef(claim) || (engine == "both" && verdicts[i].verdict != Verdict::proved)) continue;
+    ClaimVerdict nef = by_nef(certificate, claim, common);
+    if (engine == "both" && nef.verdict == Verdict::refuted) {
+      throw ContractViolation("the signs prove " + claim_text(claim) + " and Nef polyhedra refute it: " + nef.witness);
+    }
+    nef.claim = claim_text(claim);
+    verdicts[i] = std::move(nef);
   }
   return verdicts;
 }
@@ -135,7 +143,7 @@ Outcome certify(const CertifyOptions& options, const Common& common) {
   const Certificate certificate =
       make_certificate(std::move(body), std::move(request.claims), std::move(request.bodies),
                        {"hexact " HEXACT_VERSION, "engine " + options.engine});
-  const std::vector<ClaimVerdict> verdicts = decide(certificate, options.engine);
+  const std::vector<ClaimVerdict> verdicts = decide(certificate, options.engine, common);
   Outcome outcome = claim_outcome(verdicts);
   if (outcome.exit_code == kDone && !options.output.empty()) io::write_certificate(options.output, certificate);
   if (options.output == "-") outcome.text.clear();
