@@ -57,12 +57,16 @@ std::vector<double> bends(const MeshView& mesh) {
   return result;
 }
 
-/// Blue, cyan, green, yellow, red for t from 0 to 1.
+/// Blue, teal, pale green, sand, coral for t from 0 to 1: light enough for black edges and shading to stay visible.
 Colour ramp(double t) {
-  const auto channel = [&](double centre) {
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(1.5 - std::abs(4 * t - centre), 0.0, 1.0)));
+  constexpr std::array<Vector, 5> kStops{{{92, 137, 214}, {105, 205, 212}, {206, 236, 176}, {255, 214, 132}, {246, 140, 116}}};
+  const double place = std::clamp(t, 0.0, 1.0) * (kStops.size() - 1);
+  const auto i = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+  const double part = place - static_cast<double>(i);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<std::uint8_t>(std::lround(kStops[i][c] + part * (kStops[i + 1][c] - kStops[i][c])));
   };
-  return {channel(3), channel(2), channel(1)};
+  return {channel(0), channel(1), channel(2)};
 }
 
 }  // namespace
