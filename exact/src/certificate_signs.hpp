@@ -54,11 +54,23 @@ template <class R>
 bool has_normal(const Plane<R>& p) {
   return !p.a.is_zero() || !p.b.is_zero() || !p.c.is_zero();
 }
+inline bool has_normal(const RootPlanes& planes, std::size_t f) { return has_normal(planes[f]); }
+inline bool has_normal(const IntegerPlanes& planes, std::size_t f) {
+  if (!planes.is_narrow(f)) return has_normal(planes.wide(f));
+  const Row& p = planes.narrow(f);
+  return p[0] != 0 || p[1] != 0 || p[2] != 0;
+}
 
 /// An axis that is not parallel to the normal: one after the first coefficient that is not 0.
 template <class R>
 int other_axis(const Plane<R>& p) {
   return !p.a.is_zero() ? 1 : !p.b.is_zero() ? 2 : 0;
+}
+inline int other_axis(const RootPlanes& planes, std::size_t f) { return other_axis(planes[f]); }
+inline int other_axis(const IntegerPlanes& planes, std::size_t f) {
+  if (!planes.is_narrow(f)) return other_axis(planes.wide(f));
+  const Row& p = planes.narrow(f);
+  return p[0] != 0 ? 1 : p[1] != 0 ? 2 : 0;
 }
 
 template <class Planes>

@@ -76,12 +76,17 @@ struct Pair {
     for (std::size_t i = 0; i < reference.plane_count(); ++i) {
       const Plane<S> p = in_frame<S>(reference, i, body);
       planes.push_back(detail::to_ring(p));
-      if (std::string k = key(p); !k.empty()) wanted.emplace(std::move(k), i);
+      std::string k = key(p);
+      if (k.empty()) continue;
+      // A corner cut keeps the reference's planes in their places; the rest is looked for below.
+      is_facet[i] = i < own && !body.loops[i].empty() && key(Traits<S>::plane(body, i)) == k;
+      if (!is_facet[i]) wanted.emplace(std::move(k), i);
     }
-    for (std::size_t f = 0; f < own; ++f) {
+    for (std::size_t f = 0; f < own && !wanted.empty(); ++f) {
       if (body.loops[f].empty()) continue;
       const auto [first, last] = wanted.equal_range(key(Traits<S>::plane(body, f)));
       for (auto it = first; it != last; ++it) is_facet[it->second] = true;
+      wanted.erase(first, last);
     }
   }
 };
@@ -131,6 +136,7 @@ class Verifier {
     for (const Support& s : certificate_.supports) {
       if (s.reference == reference.name) support.emplace(s.plane, s.vertex);
     }
+    if (std::all_of(pair.is_facet.begin(), pair.is_facet.end(), [](bool b) { return b; })) return {};
     const detail::ConvexSigns<Planes> signs(planes_, body_.loops, body_.triples);
     std::vector<std::uint32_t> leaving(body_.vertex_count(), kNoTwin);
     for (std::size_t h = signs.edges().size(); h-- > 0;) leaving[signs.edges().origin[h]] = static_cast<std::uint32_t>(h);
@@ -241,11 +247,21 @@ class Verifier {
   std::optional<Fault> convex_;
 };
 
+bool is_convex(const PlaneBody& b) {
+  const MeshTopology topology = analyse_topology(b.loops, b.vertex_count());
+  if (b.field == Field::rational) return detail::convex_fault(b.planes, b.loops, b.triples, topology).empty();
+  return detail::convex_fault(Traits<QuadraticField>::all(b), b.loops, b.triples, topology).empty();
+}
+
+/// Evidence for the half-spaces of the reference that are no facet half-spaces of the body; none when the body is not
+/// convex, `verify` then names the reason.
 /// Walks uphill along n: an edge along n_f × n_g rises where det(n, f, g) > 0. Ends at a supporting vertex.
 template <class S>
 void add_supports(Certificate& out, const NamedBody& reference) {
   const PlaneBody& body = out.body;
   const Pair<S> pair(body, reference.body);
+  const auto is_set = [](bool b) { return b; };
+  if (std::all_of(pair.is_facet.begin(), pair.is_facet.end(), is_set) || !is_convex(body)) return;
   const HalfEdges edges = half_edges_of(body.loops);
   std::vector<std::uint32_t> leaving(body.vertex_count(), 0);
   for (std::size_t h = edges.size(); h-- > 0;) leaving[edges.origin[h]] = static_cast<std::uint32_t>(h);
@@ -274,12 +290,6 @@ std::vector<ClaimVerdict> verify_over(const Certificate& certificate) {
     out.push_back({claim_text(claim), fault.empty() ? Verdict::proved : Verdict::refuted, fault});
   }
   return out;
-}
-
-bool is_convex(const PlaneBody& b) {
-  const MeshTopology topology = analyse_topology(b.loops, b.vertex_count());
-  if (b.field == Field::rational) return detail::convex_fault(b.planes, b.loops, b.triples, topology).empty();
-  return detail::convex_fault(Traits<QuadraticField>::all(b), b.loops, b.triples, topology).empty();
 }
 
 void expect_consistent(const PlaneBody& b) {
@@ -317,7 +327,6 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
   expect_consistent(out.body);
   for (const NamedBody& b : out.bodies) expect_consistent(b.body);
   std::vector<std::string> done;
-  std::optional<bool> convex;
   for (const Claim& claim : out.claims) {
     const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex";
     const bool about = claim.name == "inside" || claim.name == "tangent" || claim.name == "corner-cut-of";
@@ -328,8 +337,7 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
     if (named == out.bodies.end()) throw InvalidInput("MissingBody", "names a body that is not given", claim_text(claim));
     if (claim.name == "corner-cut-of" || std::find(done.begin(), done.end(), named->name) != done.end()) continue;
     done.push_back(named->name);
-    if (!convex) convex = is_convex(out.body);
-    if (!*convex || named->body.field != out.body.field) continue;  // `verify` names the reason
+    if (named->body.field != out.body.field) continue;  // `verify` names the reason
     if (out.body.field == Field::rational) add_supports<Rational>(out, *named);
     if (out.body.field == Field::sqrt5) add_supports<QuadraticField>(out, *named);
   }

@@ -63,7 +63,7 @@ Fault planar_fault(const Planes& planes, const FacetLoops& loops, const Triples&
   };
   const std::size_t bent = first_where(loops.size(), [&](std::size_t f) {
     if (loops[f].empty()) return false;
-    return !has_normal(planes[f]) ||
+    return !has_normal(planes, f) ||
            std::any_of(loops[f].begin(), loops[f].end(), [&](VertexId v) { return off_plane(f, v); });
   });
   if (bent == loops.size()) return {};
@@ -104,7 +104,7 @@ class ConvexSigns {
   }
   /// The edge directions of a polygon that turns once change their sign along any axis exactly twice.
   [[nodiscard]] bool turns_once(std::size_t f) const {
-    const int axis = other_axis(planes_[f]);
+    const int axis = other_axis(planes_, f);
     int first = 0, last = 0, changes = 0;
     const auto start = static_cast<std::uint32_t>(loops_.start(f));
     for (std::uint32_t h = start; h < start + loops_[f].size(); ++h) {
@@ -128,7 +128,7 @@ class ConvexSigns {
       // The edge between facets i and i + 1 (counter-clockwise) runs from the vertex along n_{i+1} × n_i.
       if (sign_det3(planes_, f[0], f[i + 1], f[i]) >= 0) return false;
     }
-    const int axis = other_axis(planes_[f[0]]);
+    const int axis = other_axis(planes_, f[0]);
     int last = 0, changes = 0;
     for (std::size_t i = 1; i < k; ++i) {
       const int s = cross_sign(planes_, f[0], f[i], axis);

@@ -157,9 +157,12 @@ std::optional<std::int64_t> LineScanner::small_integer() {
 }
 
 std::int64_t LineScanner::integer(const char* what, std::int64_t low, std::int64_t high, Element element) {
+  while (at_ < end_ && is_blank(text_[at_])) ++at_;
   const std::size_t before = at_;
+  // A count or an index has no sign, not even that of -0.
+  const bool is_signed = at_ < end_ && (text_[at_] == '-' || text_[at_] == '+');
   const auto value = small_integer();
-  if (value && *value >= low && *value <= high) return *value;
+  if (value && *value >= low && *value <= high && (low < 0 || !is_signed)) return *value;
   at_ = before;
   const std::string_view found = expect_word(what, element);
   fail(std::string("expected ") + what + " from " + std::to_string(low) + " to " + std::to_string(high) + ", found " +

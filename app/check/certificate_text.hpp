@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// Reads a certificate of a polyhedron: what it says, and whether its digest is right. Nothing is believed here.
+#pragma once
+
+#include "exact_signs.hpp"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace check {
+
+// A file that cannot be read or is not what it should be; exit 3.
+struct Malformed : std::runtime_error {
+  Malformed(std::string file_, std::size_t line_, const std::string& what)
+      : std::runtime_error(what), file(std::move(file_)), line(line_) {}
+  std::string file;
+  std::size_t line;  // 0: no line
+};
+
+struct Surface {
+  std::vector<Index> start{0}, corner;          // facet f has the corners from start[f] to start[f + 1]
+  std::vector<std::array<Index, 3>> triple;     // the defining planes of each vertex
+  std::size_t facets() const { return start.size() - 1; }
+  std::size_t size(std::size_t f) const { return start[f + 1] - start[f]; }
+};
+
+struct Address {
+  Index level = 0, parent = kNone;
+  friend bool operator==(const Address&, const Address&) = default;
+};
+
+struct Body {
+  bool root5 = false, seen_planes = false, seen_loops = false, seen_vertices = false;
+  long scale = 0;
+  std::array<mpq_class, 3> shift;
+  Planes planes;
+  std::vector<Address> address;
+  Surface surface;
+};
+
+struct Claim {
+  std::string name, reference;
+};
+
+struct Certificate {
+  Body body;
+  std::vector<Claim> claims;
+  std::map<std::string, Body> bodies;
+  std::map<std::string, std::map<std::size_t, std::size_t>> supports;  // of a body: plane → vertex of the solid
+};
+
+// Throws Malformed.
+std::string read_file(const std::string& path);
+Certificate read_certificate(const std::string& path);
+
+// Splits text into words over spaces, line ends and `#` comments, and counts the lines.
+class Scanner {
+ public:
+  Scanner(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
+  [[noreturn]] void fail(const std::string& what) const { throw Malformed(file_, line_, what); }
+  std::string_view word();                                     // empty at the end
+  std::int64_t integer(std::int64_t low, std::int64_t high);   // the next word, an integer within these bounds
+  std::size_t count();                                         // a number of things that may still follow
+  Number number(std::string_view word, bool root5) const;      // p, p/q or p/q+r/s*sqrt5
+
+ private:
+  mpq_class rational(std::string_view word) const;
+  std::string_view rest_;
+  std::string file_;
+  std::size_t line_ = 1;
+};
+
+}  // namespace check

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+// A mesh of rounded coordinates (OBJ or OFF), and whether it is the correct rounding of an exact body.
+#pragma once
+
+#include "certificate_text.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace check {
+
+struct Mesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::vector<Index>> loops;
+};
+
+// Throws Malformed.
+Mesh read_mesh(const std::string& path);
+
+// What is wrong, or nothing: the same loops in the same order, each coordinate the double nearest to the exact one,
+// ties to even.
+std::string rounding_fault(const Body& body, const Mesh& mesh);
+
+}  // namespace check
