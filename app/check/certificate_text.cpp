@@ -52,7 +52,9 @@ void read_loops(Scanner& in, Body& b) {
   s.start.reserve(b.planes.size() + 1);
   s.corner.reserve(6 * b.planes.size());
   for (std::size_t f = 0; f < b.planes.size(); ++f) {
-    for (std::size_t k = in.count(); k > 0; --k) s.corner.push_back(static_cast<Index>(in.integer(0, 1 << 30)));
+    const std::size_t size = in.count();
+    if (size == 1 || size == 2) in.fail("a facet needs 3 corners");
+    for (std::size_t k = 0; k < size; ++k) s.corner.push_back(static_cast<Index>(in.integer(0, 1 << 30)));
     s.start.push_back(static_cast<Index>(s.corner.size()));
   }
 }
@@ -82,6 +84,7 @@ void read_section(Scanner& in, Body& b, Text keyword) {
     const auto last = static_cast<std::int64_t>(b.planes.size()) - 1;
     for (auto& t : b.surface.triple) {
       for (Index& f : t) f = static_cast<Index>(in.integer(0, last));
+      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) in.fail("the three defining planes must differ");
     }
   } else {
     in.fail("unexpected " + std::string(keyword));

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// hexact-check against the library and against the definitions, on certificates that were edited.
+#include "hexact/exact/certify.hpp"
+#include "hexact/exact/honeycomb.hpp"
+#include "hexact/io/mesh_file.hpp"
+#include "hexact/kernel/errors.hpp"
+#include "program.hpp"
+#include "slow_reference.hpp"
+#include "solid_samples.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <variant>
+
+using namespace hexact;
+
+namespace {
+
+std::vector<Claim> all_claims() {
+  return {{"closed", ""}, {"planar", ""}, {"trivalent", ""}, {"convex", ""}, {"inside", "base"}, {"tangent", "base"}, {"corner-cut-of", "base"}};
+}
+
+PlaneBody over_sqrt5(PlaneBody b) {
+  b.field = Field::sqrt5;
+  for (std::size_t i = 0; i < b.planes.size(); ++i) {
+    const Plane<Integer> p = b.planes[i];
+    b.planes_sqrt5.push_back({Rational(p.a), Rational(p.b), Rational(p.c), Rational(p.d)});
+  }
+  b.planes = {};
+  return b;
+}
+
+/// A generic solid with pentagons, one level with λ₅ = (11 − 3√5)/38.
+Certificate pentagons_over_sqrt5() {
+  auto level = honeycomb_start<QuadraticField>(over_sqrt5(samples::generic_dodecahedron()));
+  const PlaneBody base = to_plane_body(level);
+  level = honeycomb_step(level, static_policy_sqrt5()).level;
+  return make_certificate(to_plane_body(level), all_claims(), {{"base", base}}, {});
+}
+
+std::vector<Certificate> originals() {
+  std::vector<Certificate> out;
+  for (int k = 1; k <= 2; ++k) {
+    out.push_back(make_certificate(samples::honeycomb(samples::cube(), k), all_claims(), {{"base", samples::cube()}}, {}));
+  }
+  out.push_back(make_certificate(samples::honeycomb(samples::tetrahedron(), 1), all_claims(), {{"base", samples::tetrahedron()}}, {}));
+  const PlaneBody generic = samples::generic_dodecahedron();
+  out.push_back(make_certificate(samples::honeycomb(generic, 1), all_claims(), {{"base", generic}}, {}));
+  out.push_back(pentagons_over_sqrt5());
+  // Evidence: a reference whose half-spaces are no facets of the body.
+  out.push_back(make_certificate(samples::honeycomb(samples::tetrahedron(), 1), {{"convex", ""}, {"inside", "base"}},
+                                 {{"base", samples::cube(2)}}, {}));
+  const PlaneBody around = samples::simple_body({{-1, -1, -1, 4}, {-1, 1, 2, 5}, {1, -2, 1, 5}, {3, 1, -1, 6}});
+  out.push_back(make_certificate(samples::cube(), {{"inside", "base"}}, {{"base", around}}, {}));
+  return out;
+}
+
+class Dice {  // splitmix64
+ public:
+  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  std::size_t below(std::size_t n) {
+    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+std::vector<std::vector<VertexId>> lists(const FacetLoops& loops) {
+  std::vector<std::vector<VertexId>> out;
+  for (std::size_t f = 0; f < loops.size(); ++f) out.emplace_back(loops[f].begin(), loops[f].end());
+  return out;
+}
+FacetLoops loops_of(const std::vector<std::vector<VertexId>>& lists) {
+  FacetLoops out;
+  for (const auto& loop : lists) out.add(loop);
+  return out;
+}
+
+template <class S>
+S& coefficient(Plane<S>& p, std::size_t k) { return k == 0 ? p.a : k == 1 ? p.b : k == 2 ? p.c : p.d; }
+
+/// Adds 10^place, as a changed digit does, with either sign.
+void change_digit(PlaneBody& b, Dice& dice) {
+  const std::size_t i = dice.below(b.plane_count()), k = dice.below(4);
+  long long by = dice.below(2) == 0 ? 1 : -1;
+  for (std::size_t place = dice.below(5); place > 0; --place) by *= 10;
+  if (b.field == Field::sqrt5) {
+    coefficient(b.planes_sqrt5[i], k) += QuadraticField(by);
+    return;
+  }
+  Plane<Integer> p = b.planes[i];
+  coefficient(p, k) += Integer(by);
+  b.planes.set(i, p);
+}
+
+void swap_planes(PlaneBody& b, Dice& dice) {
+  const std::size_t i = dice.below(b.plane_count()), j = dice.below(b.plane_count());
+  if (b.field == Field::sqrt5) return std::swap(b.planes_sqrt5[i], b.planes_sqrt5[j]);
+  const Plane<Integer> p = b.planes[i], q = b.planes[j];
+  b.planes.set(i, q);
+  b.planes.set(j, p);
+}
+
+void change_loops(PlaneBody& b, Dice& dice, std::size_t kind) {
+  auto loops = lists(b.loops);
+  auto &loop = loops[dice.below(loops.size())], &other = loops[dice.below(loops.size())];
+  const std::size_t i = dice.below(loop.size()), j = dice.below(loop.size());
+  if (kind == 0) loop.clear();
+  else if (kind == 1) loop[i] = make_id<VertexId>(dice.below(b.vertex_count()));
+  else if (kind == 2) std::swap(loop[i], loop[j]);
+  else if (kind == 3) std::swap(loop, other);
+  else if (kind == 4) std::reverse(loop.begin(), loop.end());
+  else if (kind == 5) std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(i), loop.end());
+  else loop.erase(loop.begin() + static_cast<std::ptrdiff_t>(i));
+  b.loops = loops_of(loops);
+}
+
+/// One edit. Every index stays in range, so that the file can be read and the claims have to be decided.
+void edit(Certificate& c, Dice& dice) {
+  PlaneBody& b = c.body;
+  const std::size_t f = dice.below(b.plane_count()), v = dice.below(b.vertex_count()), kind = dice.below(18);
+  if (kind < 4) change_digit(b, dice);
+  else if (kind == 4) swap_planes(b, dice);
+  else if (kind < 12) change_loops(b, dice, kind - 5);
+  else if (kind == 12) b.addresses[f].level += 1;
+  else if (kind == 13) b.addresses[f].parent = make_id<VertexId>(dice.below(b.vertex_count()));
+  else if (kind == 14) b.triples[v][dice.below(3)] = make_id<FacetId>(f);
+  else if (kind == 15) std::swap(b.triples[v], b.triples[dice.below(b.vertex_count())]);
+  else if (kind == 16 && !c.supports.empty()) c.supports[dice.below(c.supports.size())].vertex = make_id<VertexId>(v);
+  else if (kind == 17 && !c.supports.empty()) c.supports.erase(c.supports.begin());
+  else change_digit(c.bodies.front().body, dice);
+}
+
+std::vector<bool> by_library(const Certificate& c) {
+  std::vector<bool> out;
+  for (const ClaimVerdict& v : verify(c)) out.push_back(v.verdict == Verdict::proved);
+  return out;
+}
+std::vector<bool> by_definition(const Certificate& c) {
+  return c.body.field == Field::rational ? slow::decide<Rational>(c) : slow::decide<QuadraticField>(c);
+}
+std::vector<bool> by_program(const program::Run& run, const Certificate& c) {
+  const auto report = nlohmann::json::parse(run.out);
+  std::vector<bool> out;
+  for (const Claim& claim : c.claims) out.push_back(report["claims"][claim_text(claim)] == "proved");
+  return out;
+}
+bool all_true(const std::vector<bool>& list) { return std::find(list.begin(), list.end(), false) == list.end(); }
+
+/// The certificate in `text`, or nothing when it is malformed.
+std::optional<Certificate> parsed(const std::string& text) {
+  try {
+    return std::get<Certificate>(io::parse_geometry(text, io::Format::certificate, "edited"));
+  } catch (const ParseError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("edited certificates: program, library and definitions give the same verdict on every claim", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string path = (folder.path() / "c.cert").string();
+  const std::vector<Certificate> certificates = originals();
+  for (const Certificate& c : certificates) {
+    io::write_certificate(path, c);
+    CHECK(program::run(folder, "\"$check\" c.cert").status == 0);
+    CHECK(all_true(by_definition(c)));
+  }
+  std::size_t rejected = 0;
+  for (std::uint64_t seed = 1; seed <= 1400; ++seed) {
+    Dice dice(seed);
+    Certificate edited = certificates[seed % certificates.size()];
+    edit(edited, dice);
+    const std::string text = io::certificate_text(edited);
+    program::write_bytes(path, text);
+    const program::Run run = program::run(folder, "\"$check\" --json c.cert");
+    const std::optional<Certificate> read = parsed(text);
+    CAPTURE(seed, run.out, run.err);
+    REQUIRE(run.status == (!read ? 3 : all_true(by_library(*read)) ? 0 : 1));
+    if (run.status != 0) ++rejected;
+    if (!read) continue;
+    const std::vector<bool> expected = by_definition(*read);
+    REQUIRE(by_library(*read) == expected);
+    REQUIRE(by_program(run, *read) == expected);
+  }
+  CHECK(rejected >= 1000);
+}
+
+TEST_CASE("a certificate with one changed byte is rejected", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string path = (folder.path() / "c.cert").string();
+  const std::string good = io::certificate_text(originals().front());
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = bad[i] == '1' ? '2' : '1';
+    CHECK_FALSE(parsed(bad));
+    if (i % 9 != 0) continue;
+    program::write_bytes(path, bad);
+    CHECK(program::run(folder, "\"$check\" c.cert").status == 3);
+  }
+  program::write_bytes(path, good.substr(0, good.size() / 2));
+  CHECK(program::run(folder, "\"$check\" c.cert").status == 3);
+}
+
+TEST_CASE("a coordinate changed by one ulp is rejected by both programs", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string cert = (folder.path() / "c.cert").string(), obj = (folder.path() / "m.obj").string();
+  Dice dice(7);
+  for (const Certificate& c : {originals()[0], originals()[4]}) {
+    io::write_certificate(cert, c);
+    const RoundedVertices rounded = rounded_vertices(c.body);
+    const auto write = [&](const std::vector<Point3<double>>& points) { io::write_mesh(obj, io::Format::obj, {points, c.body.loops, {}}); };
+    write(rounded.points);
+    CHECK(program::run(folder, "\"$check\" c.cert m.obj").status == 0);
+    CHECK(program::run(folder, "\"$hexact\" check c.cert m.obj").status == 0);
+    for (std::size_t v = 0; v < rounded.points.size(); ++v) {
+      for (const auto axis : {&Point3<double>::x, &Point3<double>::y, &Point3<double>::z}) {
+        std::vector<Point3<double>> points = rounded.points;
+        const double to = dice.below(2) == 0 ? -1 : 1;
+        points[v].*axis = std::nextafter(points[v].*axis, to * std::numeric_limits<double>::infinity());
+        write(points);
+        CHECK(program::run(folder, "\"$check\" c.cert m.obj").status == 1);
+        if (v % 8 == 0) CHECK(program::run(folder, "\"$hexact\" check c.cert m.obj").status == 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("hexact-check says what is wrong with a file, and where", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string path = (folder.path() / "c.cert").string();
+  Certificate c = originals().back();
+  const auto status_of = [&](const Certificate& certificate) {
+    io::write_certificate(path, certificate);
+    CHECK_FALSE(parsed(program::read_bytes(path)));
+    return program::run(folder, "\"$check\" c.cert").status;
+  };
+  REQUIRE_FALSE(c.supports.empty());
+  Certificate wrong = c;
+  wrong.supports[0].plane = 1000;
+  CHECK(status_of(wrong) == 3);
+  wrong = c;
+  wrong.supports[0].vertex = make_id<VertexId>(1000);
+  CHECK(status_of(wrong) == 3);
+  CHECK(program::run(folder, "\"$check\" nothing.cert").status == 3);
+  CHECK(program::run(folder, "\"$check\" .").status == 3);
+  CHECK(program::run(folder, "\"$check\"").status == 2);
+  CHECK(program::run(folder, "\"$check\" --nonsense c.cert").status == 2);
+  program::write_bytes(path, "hexact-certificate 1\nfield Q\nplanes 1\n0 0 x 1 0 -\n");
+  const program::Run run = program::run(folder, "\"$check\" --json c.cert");
+  CHECK(run.status == 3);
+  CHECK(nlohmann::json::parse(run.out)["error"]["line"] == 4);
+}
