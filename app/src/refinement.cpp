@@ -72,7 +72,7 @@ std::variant<SizeTable, DoubleParameter> in_doubles(const CutPolicy& policy) {
 StepReport advance_level(SnappedLevel& level, const CutPolicy& policy, const SnappedOptions& options) {
   SnappedStep step = snapped_step(std::move(level), policy, options);
   level = std::move(step.level);
-  if (const auto bad = sign_violations(level.map, level.planes); !bad.empty()) {
+  if (const auto bad = sign_violations(level); !bad.empty()) {
     std::vector<Finding> findings;
     for (const SignViolation& v : bad) findings.push_back(explain(v, level.map));
     throw InvalidInput(std::move(findings));

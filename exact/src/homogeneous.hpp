@@ -11,8 +11,8 @@ struct HomogeneousPoint {
   Integer x, y, z, w;  ///< w > 0
 };
 
-/// The point of three planes; w = 0 where their normals are dependent.
-inline HomogeneousPoint meet(const Plane<Integer>& p, const Plane<Integer>& q, const Plane<Integer>& r) {
+/// The point of three planes, w being the determinant of their normals, of either sign.
+inline HomogeneousPoint oriented_meet(const Plane<Integer>& p, const Plane<Integer>& q, const Plane<Integer>& r) {
   const auto cross = [](const Plane<Integer>& u, const Plane<Integer>& v) {
     return std::array<Integer, 3>{u.b * v.c - u.c * v.b, u.c * v.a - u.a * v.c, u.a * v.b - u.b * v.a};
   };
@@ -22,6 +22,12 @@ inline HomogeneousPoint meet(const Plane<Integer>& p, const Plane<Integer>& q, c
   m.x = p.d * qr[0] + q.d * rp[0] + r.d * pq[0];
   m.y = p.d * qr[1] + q.d * rp[1] + r.d * pq[1];
   m.z = p.d * qr[2] + q.d * rp[2] + r.d * pq[2];
+  return m;
+}
+
+/// The point of three planes; w = 0 where their normals are dependent.
+inline HomogeneousPoint meet(const Plane<Integer>& p, const Plane<Integer>& q, const Plane<Integer>& r) {
+  HomogeneousPoint m = oriented_meet(p, q, r);
   if (m.w.sign() < 0) m = {-m.x, -m.y, -m.z, -m.w};
   return m;
 }

@@ -2,9 +2,12 @@
 #include "snapped_cut.hpp"
 
 #include "homogeneous.hpp"
+#include "instruction_sets.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace hexact::detail {
 namespace {
@@ -127,8 +130,25 @@ std::optional<WideChoice> cut_with_precision(const ExactCorner& corner, int guar
   return choice;
 }
 
+/// The three functions below are those of the C library for the arguments that occur here, without its calls.
+double power_of_two(int e) {  // −1022 <= e <= 1023
+  return std::bit_cast<double>(static_cast<std::uint64_t>(e + 1023) << 52);
+}
+int floor_log2(double x) {  // x > 0 normal
+  return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52) - 1023;
+}
+double to_nearest(double x) {  // |x| < 2^51: the sum has no room for a fraction
+  constexpr double kShift = 0x1.8p52;
+  return (x + kShift) - kShift;
+}
+double up_to_integer(double x) {  // |x| < 2^62
+  const auto i = static_cast<std::int64_t>(x);
+  return static_cast<double>(i) < x ? static_cast<double>(i + 1) : static_cast<double>(i);
+}
+
 }  // namespace
 
+HEXACT_FOR_EACH_INSTRUCTION_SET
 std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard_bits) {
   std::array<Vector, 3> c;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -149,11 +169,11 @@ std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard
   for (const Vector& w : corner.w) distance = std::max(distance, norm1(w - corner.v));
   // The direction is known to about error·span/length; its effect over `distance` has to stay well below the depth.
   if (!(depth > 0) || !(64 * error * span * distance < depth * length) || !(256 * error < depth)) return std::nullopt;
-  const Widths widths = choose_widths(std::ilogb(distance / depth), std::ilogb(depth), guard_bits);
+  const Widths widths = choose_widths(floor_log2(distance / depth), floor_log2(depth), guard_bits);
   if (widths.normal > 40 || widths.normal + widths.fraction + kRangeBits + 2 > 62) return std::nullopt;
 
-  const double scale = std::ldexp(1.0, widths.normal - 1) / length;
-  const Vector n{std::nearbyint(normal.x * scale), std::nearbyint(normal.y * scale), std::nearbyint(normal.z * scale)};
+  const double scale = power_of_two(widths.normal - 1) / length;
+  const Vector n{to_nearest(normal.x * scale), to_nearest(normal.y * scale), to_nearest(normal.z * scale)};
   std::array<double, 3> at_cut, at_w;
   for (std::size_t i = 0; i < 3; ++i) {
     at_cut[i] = dot(n, c[i]);
@@ -162,9 +182,10 @@ std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard
   const double at_v = dot(n, corner.v);
   // |n|₁·error for the points, and five roundings of sums below |n|₁·2^18.
   const double margin = norm1(n) * (error + 0x1p-32);
-  const double unit = std::ldexp(1.0, widths.fraction);
-  const double offset = std::ceil((std::max({at_cut[0], at_cut[1], at_cut[2]}) + margin) * unit);
-  if (!(std::fabs(offset) < 0x1p61)) return std::nullopt;
+  const double unit = power_of_two(widths.fraction);
+  const double least = (std::max({at_cut[0], at_cut[1], at_cut[2]}) + margin) * unit;
+  if (!(std::fabs(least) < 0x1p61)) return std::nullopt;
+  const double offset = up_to_integer(least);
   const double d = offset / unit;
   // The quotient of an integer below 2^53 by a power of two is exact; above, the error is below the margin.
   if (!(at_v - 2 * margin > d)) return std::nullopt;

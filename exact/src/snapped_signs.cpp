@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/exact/snapped_honeycomb.hpp"
+#include "instruction_sets.hpp"
 #include "plane_determinants.hpp"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace hexact {
 namespace {
@@ -20,6 +24,11 @@ int direction_sign(const IntegerPlanes& planes, std::size_t f, std::size_t g, in
   if (planes.is_narrow(f) && planes.is_narrow(g)) {
     const auto& p = planes.narrow(f);
     const auto& q = planes.narrow(g);
+    if (((detail::normal_spread(p) | detail::normal_spread(q)) >> 31) == 0) {
+      const std::int64_t x = p[static_cast<std::size_t>(i)] * q[static_cast<std::size_t>(j)] -
+                             p[static_cast<std::size_t>(j)] * q[static_cast<std::size_t>(i)];
+      return x > 0 ? 1 : x < 0 ? -1 : 0;
+    }
     const __int128 x = static_cast<__int128>(p[static_cast<std::size_t>(i)]) * q[static_cast<std::size_t>(j)] -
                        static_cast<__int128>(p[static_cast<std::size_t>(j)]) * q[static_cast<std::size_t>(i)];
     return x > 0 ? 1 : x < 0 ? -1 : 0;
@@ -73,6 +82,76 @@ void check_vertex(const HoneycombMap& map, const IntegerPlanes& planes, std::uin
   }
 }
 
+/// Sign of d − n·x for the plane f at a point x known to `error`; 0: undecided. Conversions, products and differences
+/// add at most 6 roundings on the way of a term: together below 2^-50 of the sum of magnitudes.
+int side_by_point(const IntegerPlanes& planes, std::uint32_t f, const Point3<double>& x, double error) {
+  if (!planes.is_narrow(f)) return 0;
+  const detail::Row& p = planes.narrow(f);
+  const double a = static_cast<double>(p[0]), b = static_cast<double>(p[1]), c = static_cast<double>(p[2]);
+  const double d = static_cast<double>(p[3]), tx = a * x.x, ty = b * x.y, tz = c * x.z;
+  const double value = d - tx - ty - tz;
+  const double bound = ((std::fabs(a) + std::fabs(b) + std::fabs(c)) * error +
+                        0x1p-50 * (std::fabs(tx) + std::fabs(ty) + std::fabs(tz) + std::fabs(d))) * (1 + 0x1p-40);
+  return value > bound ? 1 : value < -bound ? -1 : 0;
+}
+
+/// Whether the far plane at the target of h keeps its origin v strictly: d − n·v > 0, the sign of det4 over det3 > 0.
+bool edge_is_strict(const SnappedLevel& level, std::uint32_t h, std::uint32_t far) {
+  const std::uint32_t v = level.map.origin(h);
+  const double error = level.errors[v];
+  if (error < std::numeric_limits<double>::infinity()) {
+    if (const int side = side_by_point(level.planes, far, level.points[v], error); side != 0) return side > 0;
+  }
+  const auto f = level.map.facets_at(v);
+  return detail::sign_det4(level.planes, f[0], f[1], f[2], far) > 0;
+}
+
+double coordinate(const Point3<double>& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// The edges of facet f that it owns (the half-edge with the smaller number), and its turning, in one round: the
+/// far plane of an edge is the neighbour across the next one. Strict edges run along n_f × n_g, so the difference of
+/// two corners has the signs of that direction wherever it is larger than their errors.
+HEXACT_FOR_EACH_INSTRUCTION_SET
+bool facet_is_strict(const SnappedLevel& level, std::uint32_t f) {
+  const HoneycombMap& map = level.map;
+  const std::uint32_t start = map.facet_start(f), size = map.facet_size(f);
+  const int axis = turning_axis(level.planes, f);
+  int first = 0, last = 0, changes = 0;
+  std::uint32_t v = map.origin(start);
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const std::uint32_t h = start + i, next = i + 1 == size ? start : h + 1, w = map.origin(next);
+    const double step = coordinate(level.points[w], axis) - coordinate(level.points[v], axis);
+    const double error = (static_cast<double>(level.errors[v]) + static_cast<double>(level.errors[w])) * (1 + 0x1p-40);
+    const int s = step > error ? 1 : step < -error ? -1 : direction_sign(level.planes, f, map.facet(map.twin(h)), axis);
+    if (s != 0) {
+      if (first == 0) first = s;
+      if (last != 0 && s != last) ++changes;
+      last = s;
+    }
+    if (h < map.twin(h) && !edge_is_strict(level, h, map.facet(map.twin(next)))) return false;
+    v = w;
+  }
+  return changes + (first != last ? 1 : 0) == 2;
+}
+
+/// A finite error bound of a located vertex says that its det3 is positive.
+bool corner_is_strict(const SnappedLevel& level, std::uint32_t v) {
+  if (level.errors[v] < std::numeric_limits<float>::infinity()) return true;
+  const auto f = level.map.facets_at(v);
+  return detail::sign_det3(level.planes, f[0], f[1], f[2]) > 0;
+}
+
+template <class Test>
+bool holds_for_all(std::size_t count, const Test& test) {
+  std::atomic<bool> holds{true};
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 1 << 13), [&](const auto& range) {
+    for (std::uint32_t i = range.begin(); i != range.end() && holds.load(std::memory_order_relaxed); ++i) {
+      if (!test(i)) holds = false;
+    }
+  });
+  return holds;
+}
+
 template <class Check>
 Violations collect(std::size_t count, std::size_t limit, const Check& check) {
   return tbb::parallel_deterministic_reduce(
@@ -100,6 +179,13 @@ std::vector<SignViolation> sign_violations(const HoneycombMap& map, const Intege
   found.insert(found.end(), turning.begin(), turning.end());
   if (found.size() > limit) found.resize(limit);
   return found;
+}
+
+std::vector<SignViolation> sign_violations(const SnappedLevel& level, std::size_t limit) {
+  HEXACT_EXPECTS(level.planes.size() == level.map.facet_count());
+  const bool holds = holds_for_all(level.map.vertex_count(), [&](std::uint32_t v) { return corner_is_strict(level, v); }) &&
+                     holds_for_all(level.map.facet_count(), [&](std::uint32_t f) { return facet_is_strict(level, f); });
+  return holds ? Violations{} : sign_violations(level.map, level.planes, limit);
 }
 
 Finding explain(const SignViolation& violation, const HoneycombMap& map) {

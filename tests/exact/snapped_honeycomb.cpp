@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/exact/snapped_honeycomb.hpp"
+#include "solid_samples.hpp"
 
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 
 using namespace hexact;
 
@@ -237,4 +239,44 @@ TEST_CASE("each kind of sign violation is found and explained", "[snapped]") {
   const auto violations = sign_violations(map, crossed);
   REQUIRE_FALSE(violations.empty());
   CHECK(violations.front().kind == SignViolation::Kind::edge);
+}
+
+TEST_CASE("signs by points and signs by planes agree, on good levels and on broken ones", "[snapped]") {
+  for (const PlaneBody& base : {samples::cube(), samples::tetrahedron(), samples::generic_dodecahedron()}) {
+    SnappedLevel level = snapped_start(base);
+    for (int k = 0; k < 5; ++k) {
+      CHECK(sign_violations(level).empty());
+      CHECK(sign_violations(level.map, level.planes).empty());
+      // A plane that is moved breaks corners, edges or nothing; both ways have to say the same, from stale points too.
+      for (std::size_t f = 0; f < level.planes.size(); f += level.planes.size() / 5 + 1) {
+        SnappedLevel moved{level.map, level.planes, {}, {}, 0, {}};
+        Plane<Integer> p = level.planes[f];
+        p.d = p.d - floor_quotient(p.d, Integer(8));
+        moved.planes.set(f, p);
+        moved.points.resize(level.points.size());
+        moved.errors.resize(level.errors.size());
+        std::fill(moved.points.begin(), moved.points.end(), Point3<double>{});
+        std::fill(moved.errors.begin(), moved.errors.end(), std::numeric_limits<float>::infinity());
+        CHECK(sign_violations(moved).empty() == sign_violations(moved.map, moved.planes).empty());
+      }
+      level = snapped_step(std::move(level), static_policy_rational(), {}).level;
+    }
+  }
+}
+
+TEST_CASE("points of deep levels are within their proven errors, and their det3 positive", "[snapped]") {
+  SnappedLevel level = snapped_start(samples::tetrahedron());
+  for (int k = 0; k < 10; ++k) level = snapped_step(std::move(level), static_policy_rational(), {}).level;  // edges of 1e-15
+  const PlaneBody body = to_plane_body(level);
+  for (std::uint32_t v = 0; v < level.map.vertex_count(); v += 37) {
+    const Point3<Rational> exact = rational_vertex(body, make_id<VertexId>(v));
+    REQUIRE(std::isfinite(level.errors[v]));
+    const auto off = [&](const Rational& x, double y) { return abs(x.scaled(-level.scale) - Rational::from_double(y)); };
+    const Rational bound = Rational::from_double(static_cast<double>(level.errors[v]));
+    CHECK(off(exact.x - level.shift[0], level.points[v].x) <= bound);
+    CHECK(off(exact.y - level.shift[1], level.points[v].y) <= bound);
+    CHECK(off(exact.z - level.shift[2], level.points[v].z) <= bound);
+    const auto t = body.triples[v];
+    CHECK(samples::det(body.planes[index(t[0])], body.planes[index(t[1])], body.planes[index(t[2])]).sign() > 0);
+  }
 }

@@ -57,7 +57,7 @@ std::size_t run_snapped(SnappedLevel level, int levels) {
   const CutPolicy policy = static_policy_rational();
   for (int l = 1; l <= levels; ++l) {
     level = snapped_step(std::move(level), policy, {}).level;
-    if (const auto bad = sign_violations(level.map, level.planes); !bad.empty()) {
+    if (const auto bad = sign_violations(level); !bad.empty()) {
       const Finding f = explain(bad.front(), level.map);
       std::fprintf(stderr, "%s: %s %s\n", f.code.c_str(), f.element.c_str(), f.message.c_str());
       return 0;

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace hexact {
+
+/// Memory of at least `bytes` bytes, in large pages where the system has them and `bytes` is worth it: an array of a
+/// million facets then costs a few page faults instead of tens of thousands. Throws std::bad_alloc.
+[[nodiscard]] void* allocate_array(std::size_t bytes);
+void free_array(void* memory) noexcept;
 
 /// Leaves new elements of `resize` without a value: large arrays are then touched first by the threads that fill
 /// them, instead of being zeroed by one. Only for types that may live without a constructor having run.
@@ -21,6 +27,9 @@ class UninitializedAllocator : public std::allocator<T> {
   UninitializedAllocator() = default;
   template <class U>
   UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
+
+  [[nodiscard]] T* allocate(std::size_t n) { return static_cast<T*>(allocate_array(n * sizeof(T))); }
+  void deallocate(T* memory, std::size_t) noexcept { free_array(memory); }
 
   template <class U>
   void construct(U*) const noexcept {}
