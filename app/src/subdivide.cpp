@@ -80,7 +80,12 @@ PolicySchedule schedule_of(const std::string& text, Arithmetic arithmetic, const
   if (text.starts_with(kTangent) && text != "tangent=sphere" && text != "tangent=ellipsoid") {
     return [policy = CutPolicy(tangent_policy(points_of(text.substr(kTangent.size()))))](const HoneycombMap&) { return policy; };
   }
-  return parse_policy(text, arithmetic, base);
+  try {
+    return parse_policy(text, arithmetic, base);
+  } catch (const InvalidInput& e) {  // values out of range are about the solid; a policy that is none is not
+    if (e.code() == "BadParameters") throw UsageError(e.what());
+    throw;
+  }
 }
 
 /// Refuses work that would pass the bounds before it starts: phs (b.2), V' = 3V and F' = F + V.
@@ -325,7 +330,7 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--from", options->from, "Format of the input");
   command->add_option("--to", options->to, "Format of the output");
   command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember({"phs"}));
-  command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 20));
+  command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 1000));
   command->add_option("--parameters", options->parameters,
                       "static, equal-u, constant=B, constant=3:2/5,4:1/4,6:0, random=SEED, tangent=sphere|ellipsoid|FILE, file=JSON");
   command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with")

@@ -24,7 +24,18 @@ double finite(double x, const char* what) {
   return x;
 }
 
-/// Area vectors and distances in coordinates of about unit size, so that squares stay within the range of double.
+/// √x to about 2^-52, for x >= 0 of any magnitude.
+template <class S>
+Rational root(const S& x) {
+  if (x.is_zero()) return Rational(0);
+  long e = 0;  // even: brings what would underflow back into range
+  double d = x.to_double();
+  for (; !std::isfinite(d); e -= 1000) d = scaled(x, e - 1000).to_double();
+  for (; d < 1e-290; e += 500) d = scaled(x, e + 500).to_double();
+  return Rational::from_double(std::sqrt(d)).scaled(-e / 2);
+}
+
+/// Distances in coordinates of about unit size, so that squares stay within the range of double.
 template <class S>
 class Measurement {
  public:
@@ -43,7 +54,7 @@ class Measurement {
       });
       if (usable) add_facet(PolygonView<S>{soup_.points, loop});
     }
-    measures_.area = finite(std::ldexp(measures_.area, 2 * exponent_), "the area");
+    measures_.area = finite(area_.to_double(), "the area");
     measures_.max_nonplanarity = finite(std::ldexp(measures_.max_nonplanarity, exponent_), "the nonplanarity");
     measures_.planar = bent_ == 0 && soup_.facets.size() > 0;
     if (bent_ > 0) {  // a distance may underflow, but is not 0
@@ -79,7 +90,7 @@ class Measurement {
       sum = sum + polygon[i];
       if (i + 1 < polygon.size()) n = n + cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
     }
-    measures_.area += std::sqrt(scaled(dot(n, n), -4 * exponent_).to_double()) / 2;
+    area_ += root(dot(n, n)) / Rational(2);
     const FacetShape<S> shape = facet_shape(polygon);
     if (!shape.off_plane) return;  // in one plane, or on one line
     ++bent_;
@@ -95,6 +106,7 @@ class Measurement {
 
   const PolygonSoup<S>& soup_;
   SoupMeasures measures_;
+  Rational area_;
   int exponent_ = 0;
   std::size_t bent_ = 0;
 };

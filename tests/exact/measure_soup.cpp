@@ -65,3 +65,13 @@ TEST_CASE("convex bodies, with flat edges, open meshes and dents", "[measure]") 
   bent.points[7] = {2, 2, 2};
   CHECK(convex(bent) == false);
 }
+
+TEST_CASE("the area of a sliver whose square underflows next to its length", "[measure]") {
+  PolygonSoup<Rational> soup;
+  Rational far;
+  REQUIRE(Rational::parse("1e308", far) == Rational::ParseResult::ok);
+  soup.points = {{Rational(0), Rational(0), Rational(0)}, {Rational(1), Rational(0), far}, {Rational(0), Rational(1), Rational(1)}};
+  const std::vector<VertexId> loop = {make_id<VertexId>(0), make_id<VertexId>(1), make_id<VertexId>(2)};
+  soup.facets.add(loop);
+  CHECK(measure_soup(soup).area == Approx(0.5e308));
+}
