@@ -56,7 +56,7 @@ bool LineScanner::next_line() {
     if (text_[at_] == '#') {
       std::string_view comment = text_.substr(at_ + 1, end_ - at_ - 1);
       if (comment.starts_with(' ')) comment.remove_prefix(1);
-      if (comment.ends_with('\r')) comment.remove_suffix(1);
+      while (comment.ends_with('\r')) comment.remove_suffix(1);
       if (comment_style_ == Comments::whole_lines) passed_comments_.emplace_back(comment);
       continue;
     }

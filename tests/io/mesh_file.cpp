@@ -8,6 +8,8 @@
 #include <bit>
 #include <cfloat>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <random>
 
 using namespace hexact;
@@ -306,4 +308,15 @@ TEST_CASE("OpenSCAD faces are clockwise from outside", "[io]") {
   const std::string text = io::mesh_text(Format::scad, mesh.view(), {});
   CHECK(text.find("[2, 1, 0]") != std::string::npos);
   CHECK(text.find("0.10000000000000001") != std::string::npos);
+}
+
+TEST_CASE("a comment that ends in several carriage returns is written as it was read", "[io]") {
+  std::ifstream in(HEXACT_TEST_DATA "/../fuzz/corpus/certificate/prism.txt", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  bytes = bytes.substr(0, bytes.rfind("sha256 ") == std::string::npos ? bytes.size() : bytes.rfind("sha256 "));
+  bytes.insert(bytes.find('\n') + 1, "# made by hand\r\r\r\n");
+  bytes += "sha256 " + io::sha256_hex(bytes) + "\n";
+  const auto certificate = std::get<Certificate>(io::parse_geometry(bytes, io::Format::certificate, "test"));
+  const std::string text = io::certificate_text(certificate);
+  CHECK(io::certificate_text(std::get<Certificate>(io::parse_geometry(text, io::Format::certificate, "test"))) == text);
 }
