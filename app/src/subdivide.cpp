@@ -1,154 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "subdivide.hpp"
+
 #include "body_input.hpp"
-#include "command.hpp"
-#include "hexact/exact/body_from_soup.hpp"
-#include "hexact/exact/certify.hpp"
-#include "hexact/io/mesh_file.hpp"
-#include "hexact/io/output_file.hpp"
-#include "hexact/io/parameters_file.hpp"
-#include "refinement.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <iostream>
-#include <limits>
+#include <map>
 #include <memory>
 
 namespace hexact::app {
 namespace {
 
-struct Options {
-  std::string input, output, from, to;
-  std::string scheme = "phs";
-  unsigned levels = 1;
-  std::string parameters = "static";
-  std::string arithmetic = "snapped";
-  int bits = 0;
-  std::string certificate;
-  std::string limit_points;
-  double stop_min_edge = 0;
-  double stop_max_panel = 0;
-  std::string all_levels;
-  std::string color;
-};
+using Scheme = Outcome (*)(const SubdivideOptions&, const Common&);
 
-Arithmetic arithmetic_named(const std::string& name) {
-  if (name == "rational") return Arithmetic::rational;
-  if (name == "qsqrt5") return Arithmetic::qsqrt5;
-  if (name == "double") return Arithmetic::floating;
-  return Arithmetic::snapped;
+const std::map<std::string, Scheme>& schemes() {
+  static const std::map<std::string, Scheme> table = {{"phs", subdivide_honeycomb}};
+  return table;
 }
+
+}  // namespace
 
 io::Format output_format(const std::string& path, const std::string& name) {
   if (const auto format = named_format(name)) return *format;
   if (const auto format = io::format_from_path(path)) return *format;
   throw UsageError("the format of " + path + " is not known from its ending; name it with --to");
-}
-
-void check_combination(const Options& options, const Common& common) {
-  if (common.json && options.output == "-") throw UsageError("--json and -o - both need standard output");
-  if (!options.certificate.empty() && options.arithmetic == "double") {
-    throw UsageError("--certificate needs an exact arithmetic, not --arithmetic double");
-  }
-  if (options.arithmetic == "double" && output_format(options.output, options.to) == io::Format::planes) {
-    throw UsageError("doubles have no exact planes; write a mesh, or use another --arithmetic");
-  }
-  if (!options.all_levels.empty() && options.all_levels.find('%') == std::string::npos) {
-    throw UsageError("--all-levels needs a pattern with %d (or {}) for the level, e.g. level%d.planes");
-  }
-}
-
-/// The points of the body that a file describes, for planes tangent to their convex hull.
-std::vector<Point3<double>> points_of(const std::string& path) {
-  const io::Geometry geometry = io::read_geometry(path);
-  if (const auto* body = std::get_if<PlaneBody>(&geometry)) return rounded_vertices(*body).points;
-  if (const auto* certificate = std::get_if<Certificate>(&geometry)) return rounded_vertices(certificate->body).points;
-  std::vector<Point3<double>> points;
-  for (const auto& p : std::get<PolygonSoup<Rational>>(geometry).points) {
-    points.push_back({p.x.to_double(), p.y.to_double(), p.z.to_double()});
-  }
-  return points;
-}
-
-/// Policies that read a file, and those that are a text alone.
-PolicySchedule schedule_of(const std::string& text, Arithmetic arithmetic, const PlaneBody& base) {
-  constexpr std::string_view kFile = "file=", kTangent = "tangent=";
-  if (text.starts_with(kFile)) {
-    return document_policy(io::read_parameters(text.substr(kFile.size())), arithmetic, base);
-  }
-  if (text.starts_with(kTangent) && text != "tangent=sphere" && text != "tangent=ellipsoid") {
-    return [policy = CutPolicy(tangent_policy(points_of(text.substr(kTangent.size()))))](const HoneycombMap&) { return policy; };
-  }
-  try {
-    return parse_policy(text, arithmetic, base);
-  } catch (const InvalidInput& e) {  // values out of range are about the solid; a policy that is none is not
-    if (e.code() == "BadParameters") throw UsageError(e.what());
-    throw;
-  }
-}
-
-/// Refuses work that would pass the bounds before it starts: phs (b.2), V' = 3V and F' = F + V.
-void check_bounds(const PlaneBody& body, unsigned levels, const Common& common) {
-  double vertices = static_cast<double>(body.vertex_count());
-  double facets = static_cast<double>(body.loops.size());
-  for (unsigned l = 0; l < levels; ++l) {
-    facets += vertices;
-    vertices *= 3;
-  }
-  const double half_edges = 3 * vertices;
-  if (half_edges >= 4294967295.0) {
-    throw ResourceLimit(fmt::format("level {} would have {:.0f} half-edges; at most 4294967294 are possible", levels, half_edges));
-  }
-  if (common.max_facets > 0 && facets > static_cast<double>(common.max_facets)) {
-    throw ResourceLimit(fmt::format("level {} would have {:.0f} facets, --max-facets allows {}", levels, facets, common.max_facets));
-  }
-  // Map, planes, points and loops of the last level, and the level before it.
-  constexpr double kBytesPerFacet = 320;
-  if (common.max_memory > 0 && facets * kBytesPerFacet > static_cast<double>(common.max_memory)) {
-    throw ResourceLimit(fmt::format("level {} would need about {:.0f} bytes, --max-memory allows {}", levels,
-                                    facets * kBytesPerFacet, common.max_memory));
-  }
-}
-
-nlohmann::ordered_json level_row(const Refinement& refinement, const StepReport& step, const HoneycombStatistics& s) {
-  const HoneycombMap& map = refinement.map();
-  nlohmann::ordered_json row;
-  row["level"] = map.level();
-  row["vertices"] = map.vertex_count();
-  row["edges"] = map.edge_count();
-  row["faces"] = map.facet_count();
-  row["seconds"] = step.seconds;
-  row["max_normal_angle_deg"] = s.max_normal_angle_deg;
-  row["median_normal_angle_deg"] = s.median_normal_angle_deg;
-  row["longest_edge"] = s.longest_edge;
-  row["shortest_edge"] = s.shortest_edge;
-  row["max_facet_diameter"] = s.max_facet_diameter;
-  row["delta"] = nullptr;
-  if (step.least_delta) row["delta"] = *step.least_delta;
-  if (!step.delta.empty()) row["delta"] = step.delta;
-  return row;
-}
-
-std::string text_row(const nlohmann::ordered_json& row) {
-  return fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12.5g} {:>12.5g} {:>8.3f}\n", row["level"].get<unsigned>(),
-                     row["vertices"].get<std::size_t>(), row["faces"].get<std::size_t>(),
-                     row["max_normal_angle_deg"].get<double>(), row["median_normal_angle_deg"].get<double>(),
-                     row["longest_edge"].get<double>(), row["shortest_edge"].get<double>(), row["seconds"].get<double>());
-}
-
-/// Writes a level; returns the proven bound of the rounding (0 for exact formats).
-double write_level(const Refinement& refinement, const std::string& path, io::Format format, const Options& options,
-                   const Common& common) {
-  if (format == io::Format::planes) {
-    io::write_planes(path, refinement.body());
-    return 0;
-  }
-  const RoundedVertices vertices = refinement.vertices();
-  const FacetLoops loops = refinement.map().loops();
-  const auto addresses = addresses_of(refinement.map());
-  io::write_mesh(path, format, {vertices.points, loops, addresses}, {options.color, common.unit});
-  return vertices.max_rounding;
 }
 
 std::string level_path(const std::string& pattern, unsigned level) {
@@ -163,173 +38,14 @@ std::string level_path(const std::string& pattern, unsigned level) {
   return pattern.substr(0, at) + fmt::format("{:0{}}", level, digits) + pattern.substr(end + 1);
 }
 
-/// A point of every facet near the limit point, the plane, and a bound: the limit point lies in the facet.
-void write_limit_points(const Refinement& refinement, const std::string& path) {
-  const RoundedVertices vertices = refinement.vertices();
-  const HoneycombMap& map = refinement.map();
-  const auto normals = newell_normals(map, vertices.points);
-  nlohmann::ordered_json facets = nlohmann::ordered_json::array();
-  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
-    Point3<double> c{0, 0, 0};
-    const std::uint32_t start = map.facet_start(f), n = map.facet_size(f);
-    for (std::uint32_t h = start; h < start + n; ++h) {
-      const auto& p = vertices.points[map.origin(h)];
-      c = {c.x + p.x / n, c.y + p.y / n, c.z + p.z / n};
-    }
-    double bound = 0;
-    for (std::uint32_t h = start; h < start + n; ++h) {
-      const auto& p = vertices.points[map.origin(h)];
-      bound = std::max(bound, std::hypot(p.x - c.x, p.y - c.y, p.z - c.z));
-    }
-    bound = bound * (1 + 1e-12) + vertices.max_rounding;
-    const auto& u = normals[f];
-    facets.push_back({{"facet", f}, {"point", {c.x, c.y, c.z}},
-                      {"plane", {u.x, u.y, u.z, u.x * c.x + u.y * c.y + u.z * c.z}}, {"bound", bound}});
-  }
-  const nlohmann::ordered_json document = {{"hexact", "limit-points"}, {"version", 1}, {"facets", facets}};
-  io::write_file(path, document.dump(1) + "\n");
-}
-
-/// The input in the frame of the result, whose first planes are its planes, exactly.
-PlaneBody reference_body(const PlaneBody& input, const PlaneBody& result) {
-  PlaneBody base;
-  base.field = result.field;
-  base.scale = result.scale;
-  base.shift = result.shift;
-  for (std::size_t f = 0; f < input.loops.size(); ++f) {
-    if (result.field == Field::rational) {
-      base.planes.push_back(result.planes[f]);
-    } else {
-      base.planes_sqrt5.push_back(result.planes_sqrt5[f]);
-    }
-    base.addresses.push_back({});
-  }
-  base.loops = input.loops;
-  base.triples = input.triples;
-  return base;
-}
-
-/// Every claim about a chain of honeycomb steps; the signs behind them were decided level by level.
-void write_chain_certificate(const BodyInput& input, PlaneBody result, const Options& options) {
-  const std::string name = "input";
-  std::vector<Claim> claims = {{"closed", ""}, {"planar", ""}, {"trivalent", ""}, {"convex", ""},
-                               {"inside", name}, {"tangent", name}, {"corner-cut-of", name}};
-  std::vector<std::string> provenance = {
-      fmt::format("hexact {}", HEXACT_VERSION),
-      fmt::format("subdivide --scheme {} --levels {} --parameters {} --arithmetic {}", options.scheme, options.levels,
-                  options.parameters, options.arithmetic)};
-  PlaneBody base = reference_body(input.body, result);
-  const Certificate certificate =
-      make_certificate(std::move(result), std::move(claims), {{name, std::move(base)}}, std::move(provenance));
-  io::write_certificate(options.certificate, certificate);
-}
-
-/// Where the stopping rules end the refinement.
-struct Stop {
-  bool keep_new = true;  ///< whether the level just made is the result
-  bool finished = false;
-  std::string reason;
-};
-
-Stop stopping(const Options& options, const HoneycombStatistics& s, unsigned level) {
-  if (options.stop_min_edge > 0 && s.shortest_edge < options.stop_min_edge) {
-    return {false, true, fmt::format("level {} would have an edge of {:.6g}, below --stop-min-edge", level, s.shortest_edge)};
-  }
-  if (options.stop_max_panel > 0 && s.max_facet_diameter <= options.stop_max_panel) {
-    return {true, true, fmt::format("level {} is the first with all panels within --stop-max-panel", level)};
-  }
-  return {};
-}
-
-struct Totals {
-  double change = 0;
-  double least = std::numeric_limits<double>::infinity();
-  bool has_change = false;
-  std::string stopped;
-};
-
-void refine(std::unique_ptr<Refinement>& current, const Options& options, const PolicySchedule& schedule,
-            const Common& common, nlohmann::ordered_json& rows, Totals& totals) {
-  const bool may_step_back = options.stop_min_edge > 0;
-  for (unsigned l = 1; l <= options.levels; ++l) {
-    std::unique_ptr<Refinement> before = may_step_back ? std::make_unique<Refinement>(*current) : nullptr;
-    const StepReport step = current->advance(schedule);
-    const HoneycombStatistics s = current->statistics();
-    const Stop stop = stopping(options, s, l);
-    if (!stop.keep_new) {
-      current = std::move(before);
-      totals.stopped = stop.reason;
-      return;
-    }
-    rows.push_back(level_row(*current, step, s));
-    if (step.parameter_change) {
-      totals.has_change = true;
-      totals.change = std::max(totals.change, *step.parameter_change);
-      totals.least = std::min(totals.least, *step.min_parameter);
-    }
-    if (!options.all_levels.empty()) {
-      const std::string path = level_path(options.all_levels, l);
-      write_level(*current, path, output_format(path, options.to), options, common);
-    }
-    if (stop.finished) {
-      totals.stopped = stop.reason;
-      return;
-    }
-  }
-}
-
-std::string report_text(const nlohmann::ordered_json& report) {
-  std::string text = "level   vertices     facets  max angle     median      longest     shortest  seconds\n";
-  for (const auto& row : report["levels"]) text += text_row(row);
-  if (report.contains("stopped")) text += report["stopped"].get<std::string>() + "\n";
-  if (report["max_parameter_change"].is_number()) {
-    text += fmt::format("parameters realised within {:.3g} of those asked\n", report["max_parameter_change"].get<double>());
-  }
-  return text + fmt::format("written to {}\n", report["output"].get<std::string>());
-}
-
-Outcome run(const Options& options, const Common& common) {
-  check_combination(options, common);
-  const io::Format format = output_format(options.output, options.to);
-  const BodyInput input = read_body(options.input, options.from);
-  if (auto findings = convex_trivalent_findings(input.body); !findings.empty()) throw InvalidInput(std::move(findings));
-  check_bounds(input.body, options.levels, common);
-  const Arithmetic arithmetic = arithmetic_named(options.arithmetic);
-  const PolicySchedule schedule = schedule_of(options.parameters, arithmetic, input.body);
-
-  auto current = std::make_unique<Refinement>(input.body, arithmetic, options.bits);
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  rows.push_back(level_row(*current, {}, current->statistics()));
-  Totals totals;
-  refine(current, options, schedule, common, rows, totals);
-
-  Outcome outcome;
-  auto& report = outcome.report;
-  report["scheme"] = options.scheme;
-  report["arithmetic"] = options.arithmetic;
-  report["levels"] = rows;
-  report["output"] = options.output;
-  report["certificate"] = options.certificate.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.certificate);
-  if (!options.certificate.empty()) write_chain_certificate(input, current->body(), options);
-  report["max_rounding"] = write_level(*current, options.output, format, options, common);
-  report["max_parameter_change"] = totals.has_change ? nlohmann::ordered_json(totals.change) : nlohmann::ordered_json();
-  report["min_parameter"] = totals.has_change ? nlohmann::ordered_json(totals.least) : nlohmann::ordered_json();
-  if (!totals.stopped.empty()) report["stopped"] = totals.stopped;
-  if (!options.limit_points.empty()) write_limit_points(*current, options.limit_points);
-  if (options.output != "-") outcome.text = report_text(report);
-  return outcome;
-}
-
-}  // namespace
-
 void add_subdivide(const Registry& registry) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SubdivideOptions>();
   CLI::App* command = registry.add("subdivide", "Refine a convex polyhedron with three facets at every vertex");
   command->add_option("MESH", options->input, "Input; - is standard input")->required();
   command->add_option("-o,--output", options->output, "Output; its ending names the format")->required();
   command->add_option("--from", options->from, "Format of the input");
   command->add_option("--to", options->to, "Format of the output");
-  command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember({"phs"}));
+  command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember(&schemes()));
   command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 1000));
   command->add_option("--parameters", options->parameters,
                       "static, equal-u, constant=B, constant=3:2/5,4:1/4,6:0, random=SEED, tangent=sphere|ellipsoid|FILE, file=JSON");
@@ -343,7 +59,7 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--all-levels", options->all_levels, "Write every level; %d stands for the level");
   command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")->check(CLI::IsMember({"level", "angle"}));
   command->callback([registry, options] {
-    registry.selected = [options, &common = registry.common] { return run(*options, common); };
+    registry.selected = [options, &common = registry.common] { return schemes().at(options->scheme)(*options, common); };
   });
 }
 
