@@ -34,7 +34,8 @@ Widths choose_widths(int log_slenderness, int log_depth, int guard) {
   const int both = std::max({by_tilt, by_offset, 8});
   const int spare = guard - kLeastGuard;
   if (both - spare <= kShortNormal) return {std::min(both, kShortNormal), 0};
-  return {std::max(by_tilt, 8), std::max(0, by_offset - std::max(by_tilt, 8))};
+  const int normal = std::max({by_tilt > kWordNormal ? std::max(kWordNormal, by_tilt - spare) : by_tilt, 8});
+  return {normal, std::max(0, by_offset - normal)};
 }
 
 using Fixed = Point3<Integer>;  // coordinates times 2^precision
@@ -115,16 +116,16 @@ std::optional<WideChoice> cut_with_precision(const ExactCorner& corner, int guar
   mpz_cdiv_q_2exp(offset.raw(), asked.raw(), static_cast<unsigned long>(coarse));
   const Integer d = offset.shifted_left(static_cast<unsigned long>(coarse));
   if (!(d + margin < at_v)) return std::nullopt;
-  WideChoice choice{{}, 0, 1, static_cast<int>(bits)};
+  WideChoice choice{{}, {0, 1}, static_cast<int>(bits)};
   const Integer slack = margin * Integer(4);
   for (std::size_t i = 0; i < 3; ++i) {
     const Integer rise = at_v - at_w[i];
     if (!(rise > slack)) return std::nullopt;
-    choice.change = std::max(choice.change, ratio(d - at_cut[i] + margin, rise - slack) * (1 + 0x1p-40));
-    choice.min_parameter = std::min(
-        choice.min_parameter, std::max(0.0, ratio(d - at_w[i] - margin, rise + slack) * (1 - 0x1p-40)));
+    choice.figures.change = std::max(choice.figures.change, ratio(d - at_cut[i] + margin, rise - slack) * (1 + 0x1p-40));
+    choice.figures.min_parameter = std::min(
+        choice.figures.min_parameter, std::max(0.0, ratio(d - at_w[i] - margin, rise + slack) * (1 - 0x1p-40)));
   }
-  if (!(choice.change < kLargestChange)) return std::nullopt;
+  if (!(choice.figures.change < kLargestChange)) return std::nullopt;
   const auto fraction = precision - static_cast<unsigned long>(coarse);
   choice.plane = {n.x.shifted_left(fraction), n.y.shifted_left(fraction), n.z.shifted_left(fraction), offset};
   return choice;
@@ -146,10 +147,18 @@ double up_to_integer(double x) {  // |x| < 2^62
   return static_cast<double>(i) < x ? static_cast<double>(i + 1) : static_cast<double>(i);
 }
 
-}  // namespace
+/// A plane in floating point before its offset is rounded, with what it says at the points of the corner.
+struct CutProposal {
+  Vector n;  ///< integers
+  Widths widths;
+  std::array<double, 3> at_cut, at_w;
+  double at_v;
+  double margin;  ///< bound of the errors of the values above
+  double least;   ///< the smallest offset that is proved to cut no neighbour off further than asked
+};
 
-HEXACT_FOR_EACH_INSTRUCTION_SET
-std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard_bits) {
+/// Coordinates are at most `extent` in magnitude.
+[[gnu::always_inline]] inline std::optional<CutProposal> propose_cut(const CornerInDoubles& corner, double extent, int guard_bits) {
   std::array<Vector, 3> c;
   for (std::size_t i = 0; i < 3; ++i) {
     const double t = corner.lambda[i];
@@ -158,8 +167,8 @@ std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard
                   : Vector{t * corner.v.x + s * corner.w[i].x, t * corner.v.y + s * corner.w[i].y,
                            t * corner.v.z + s * corner.w[i].z};
   }
-  // Coordinates are at most 2^18: the four roundings of a cut point move it by less than 2^-32 in each coordinate.
-  const double error = corner.error + 0x1p-32;
+  // The four roundings of a cut point move it by less than 2^-50 of the largest coordinate, in each coordinate.
+  const double error = corner.error + 0x1p-50 * extent;
   const Vector e1 = c[1] - c[0], e2 = c[2] - c[0];
   const Vector normal = cross(e1, e2);
   const double length = std::sqrt(dot(normal, normal));
@@ -169,39 +178,85 @@ std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard
   for (const Vector& w : corner.w) distance = std::max(distance, norm1(w - corner.v));
   // The direction is known to about error·span/length; its effect over `distance` has to stay well below the depth.
   if (!(depth > 0) || !(64 * error * span * distance < depth * length) || !(256 * error < depth)) return std::nullopt;
-  const Widths widths = choose_widths(floor_log2(distance / depth), floor_log2(depth), guard_bits);
-  if (widths.normal > 40 || widths.normal + widths.fraction + kRangeBits + 2 > 62) return std::nullopt;
-
-  const double scale = power_of_two(widths.normal - 1) / length;
-  const Vector n{to_nearest(normal.x * scale), to_nearest(normal.y * scale), to_nearest(normal.z * scale)};
-  std::array<double, 3> at_cut, at_w;
+  CutProposal p{};
+  p.widths = choose_widths(floor_log2(distance / depth), floor_log2(depth), guard_bits);
+  if (p.widths.normal > kWordNormal) return std::nullopt;
+  const double scale = power_of_two(p.widths.normal - 1) / length;
+  p.n = {to_nearest(normal.x * scale), to_nearest(normal.y * scale), to_nearest(normal.z * scale)};
   for (std::size_t i = 0; i < 3; ++i) {
-    at_cut[i] = dot(n, c[i]);
-    at_w[i] = dot(n, corner.w[i]);
+    p.at_cut[i] = dot(p.n, c[i]);
+    p.at_w[i] = dot(p.n, corner.w[i]);
   }
-  const double at_v = dot(n, corner.v);
-  // |n|₁·error for the points, and five roundings of sums below |n|₁·2^18.
-  const double margin = norm1(n) * (error + 0x1p-32);
-  const double unit = power_of_two(widths.fraction);
-  const double least = (std::max({at_cut[0], at_cut[1], at_cut[2]}) + margin) * unit;
+  p.at_v = dot(p.n, corner.v);
+  // |n|₁·error for the points, and five roundings of sums below |n|₁ times the largest coordinate.
+  p.margin = norm1(p.n) * (error + 0x1p-50 * extent);
+  p.least = std::max({p.at_cut[0], p.at_cut[1], p.at_cut[2]}) + p.margin;
+  return p;
+}
+
+/// What the plane n·x = d realises; nullopt when that is not proved to be near what was asked.
+[[gnu::always_inline]] inline std::optional<CutFigures> figures_of(const CutProposal& p, double d) {
+  if (!(p.at_v - 2 * p.margin > d)) return std::nullopt;
+  CutFigures figures{0, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double height = p.at_v - p.at_w[i];
+    if (!(height > 8 * p.margin)) return std::nullopt;
+    figures.change = std::max(figures.change,
+                              (d - p.at_cut[i] + 2 * p.margin) / (height - 4 * p.margin) * (1 + 0x1p-40) + 0x1p-50);
+    figures.min_parameter = std::min(
+        figures.min_parameter, std::max(0.0, (d - p.at_w[i] - 2 * p.margin) / (height + 4 * p.margin) * (1 - 0x1p-40)));
+  }
+  if (!(figures.change < kLargestChange)) return std::nullopt;
+  return figures;
+}
+
+/// (w − v) in units of the body, rounded once in each coordinate.
+Vector difference(const FinePoint& w, const FinePoint& v) {
+  return to_double(FinePoint{{w.at[0] - v.at[0], w.at[1] - v.at[1], w.at[2] - v.at[2]}});
+}
+
+}  // namespace
+
+HEXACT_FOR_EACH_INSTRUCTION_SET
+std::optional<CutChoice> cut_in_doubles(const CornerInDoubles& corner, int guard_bits) {
+  constexpr double kExtent = 1 << kRangeBits;
+  const auto p = propose_cut(corner, kExtent, guard_bits);
+  if (!p || p->widths.normal + p->widths.fraction + kRangeBits + 2 > 62) return std::nullopt;
+  const double unit = power_of_two(p->widths.fraction);
+  const double least = p->least * unit;
   if (!(std::fabs(least) < 0x1p61)) return std::nullopt;
   const double offset = up_to_integer(least);
-  const double d = offset / unit;
   // The quotient of an integer below 2^53 by a power of two is exact; above, the error is below the margin.
-  if (!(at_v - 2 * margin > d)) return std::nullopt;
-  CutChoice choice{{}, 0, 1};
+  const auto figures = figures_of(*p, offset / unit);
+  if (!figures) return std::nullopt;
+  return CutChoice{{static_cast<std::int64_t>(p->n.x * unit), static_cast<std::int64_t>(p->n.y * unit),
+                    static_cast<std::int64_t>(p->n.z * unit), static_cast<std::int64_t>(offset)},
+                   *figures};
+}
+
+std::optional<WideChoice> cut_in_words(const FineCorner& corner, int guard_bits) {
+  using Wide = __int128;
+  // In coordinates about v: there doubles resolve a cut that they could not in those of the body. Each point is
+  // within two units of 2^-60.
+  CornerInDoubles local{{0, 0, 0}, {}, corner.lambda, 0x1p-57};
+  double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double height = at_v - at_w[i];
-    if (!(height > 8 * margin)) return std::nullopt;
-    choice.change = std::max(choice.change, (d - at_cut[i] + 2 * margin) / (height - 4 * margin) * (1 + 0x1p-40) + 0x1p-50);
-    choice.min_parameter =
-        std::min(choice.min_parameter, std::max(0.0, (d - at_w[i] - 2 * margin) / (height + 4 * margin) * (1 - 0x1p-40)));
+    local.w[i] = difference(corner.w[i], corner.v);
+    extent = std::max(extent, norm1(local.w[i]));
   }
-  if (!(choice.change < kLargestChange)) return std::nullopt;
-  const double factor = unit;
-  choice.plane = {static_cast<std::int64_t>(n.x * factor), static_cast<std::int64_t>(n.y * factor),
-                  static_cast<std::int64_t>(n.z * factor), static_cast<std::int64_t>(offset)};
-  return choice;
+  const auto p = propose_cut(local, extent, guard_bits);
+  if (!p || p->widths.fraction > kFineBits) return std::nullopt;
+  const std::array<std::int64_t, 3> n = {static_cast<std::int64_t>(p->n.x), static_cast<std::int64_t>(p->n.y),
+                                         static_cast<std::int64_t>(p->n.z)};
+  const Wide at_v = corner.v.at[0] * n[0] + corner.v.at[1] * n[1] + corner.v.at[2] * n[2];
+  const int coarse = kFineBits - p->widths.fraction;
+  const Wide least = at_v + static_cast<Wide>(p->least * 0x1p60) + 1;  // the conversion rounds toward zero
+  const Wide offset = -(-least >> coarse);                             // up to the next multiple of 2^coarse
+  const auto figures = figures_of(*p, static_cast<double>((offset << coarse) - at_v) * 0x1p-60);
+  if (!figures) return std::nullopt;
+  const auto fraction = static_cast<unsigned long>(p->widths.fraction);
+  const auto entry = [&](std::int64_t x) { return Integer(static_cast<long long>(x)).shifted_left(fraction); };
+  return WideChoice{{entry(n[0]), entry(n[1]), entry(n[2]), Integer(offset)}, *figures, p->widths.normal};
 }
 
 WideChoice cut_in_fixed_point(const ExactCorner& corner, int guard_bits) {

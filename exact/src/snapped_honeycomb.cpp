@@ -2,9 +2,10 @@
 #include "hexact/exact/snapped_honeycomb.hpp"
 
 #include "homogeneous.hpp"
-#include "instruction_sets.hpp"
 #include "plane_determinants.hpp"
 #include "snapped_cut.hpp"
+#include "snapped_vertices.hpp"
+#include "word_points.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -65,121 +66,6 @@ Plane<Integer> in_frame(const Plane<Integer>& p, const Frame& frame) {
 
 // ---------------------------------------------------------------------------------------------- vertices
 
-struct Located {
-  Point3<double> point;
-  float error;
-};
-
-/// A float above the bound: the conversion is off by at most 2^-24 of it (bounds here are far from underflow).
-float upward(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)); }
-
-Located locate_exactly(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h) {
-  const auto m = detail::oriented_meet(planes[f], planes[g], planes[h]);
-  if (m.w.is_zero()) return {{0, 0, 0}, std::numeric_limits<float>::infinity()};
-  // Three coordinates below 2^19 in magnitude, each rounded down to a multiple of 2^-34: off by less than 2^-33.
-  const auto coordinate = [&](const Integer& x) {
-    return std::ldexp(mpz_get_d(floor_quotient(x.shifted_left(34), m.w).raw()), -34);
-  };
-  const bool proper = m.w.sign() > 0;
-  return {{coordinate(m.x), coordinate(m.y), coordinate(m.z)}, proper ? 0x1p-33f : std::numeric_limits<float>::infinity()};
-}
-
-/// Multiples of 2^-34, in which coordinates below 2^19 are exact in floating point.
-constexpr double kGrid = 0x1p34;
-
-/// Iterative refinement for corners too flat for doubles: residuals of a point of the grid, cross products and the
-/// determinant are exact in 128 bits (normals below 2^40, offsets below 2^62), so that a correction is known to 2^-49
-/// of its terms. Falls back on big integers when the bound that remains is above two steps of the grid.
-Located locate_in_words(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h, const Point3<double>& x) {
-  using Wide = __int128;
-  const detail::Row* n[3] = {&planes.narrow(f), &planes.narrow(g), &planes.narrow(h)};
-  const std::uint64_t spread = detail::normal_spread(*n[0]) | detail::normal_spread(*n[1]) | detail::normal_spread(*n[2]);
-  const bool in_range = std::fabs(x.x) < 0x1p19 && std::fabs(x.y) < 0x1p19 && std::fabs(x.z) < 0x1p19;
-  if ((spread >> 40) != 0 || !in_range) return locate_exactly(planes, f, g, h);
-  double cross[3][3];
-  Wide det = 0;
-  for (int i = 0; i < 3; ++i) {
-    const detail::Row &u = *n[(i + 1) % 3], &v = *n[(i + 2) % 3];
-    const Wide exact[3] = {Wide(u[1]) * v[2] - Wide(u[2]) * v[1], Wide(u[2]) * v[0] - Wide(u[0]) * v[2],
-                           Wide(u[0]) * v[1] - Wide(u[1]) * v[0]};
-    for (int k = 0; k < 3; ++k) cross[i][k] = static_cast<double>(exact[k]);
-    if (i == 0) det = exact[0] * (*n[0])[0] + exact[1] * (*n[0])[1] + exact[2] * (*n[0])[2];
-  }
-  if (det <= 0) return locate_exactly(planes, f, g, h);
-  const double inverse = 1 / static_cast<double>(det);
-  std::int64_t at[3] = {std::llrint(x.x * kGrid), std::llrint(x.y * kGrid), std::llrint(x.z * kGrid)};
-  for (int round = 0; round < 4; ++round) {
-    double step[3] = {0, 0, 0}, terms = 0;
-    for (int i = 0; i < 3; ++i) {
-      const detail::Row& p = *n[i];
-      const Wide exact = (Wide(p[3]) << 34) - Wide(p[0]) * at[0] - Wide(p[1]) * at[1] - Wide(p[2]) * at[2];
-      const double residual = static_cast<double>(exact) * inverse;
-      for (int k = 0; k < 3; ++k) {
-        step[k] += residual * cross[i][k];
-        terms += std::fabs(residual * cross[i][k]);
-      }
-    }
-    const double error = std::fabs(step[0]) + std::fabs(step[1]) + std::fabs(step[2]) + 0x1p-49 * terms;
-    if (error < 2) {
-      const auto coordinate = [&](int k) { return static_cast<double>(at[k]) / kGrid; };
-      return {{coordinate(0), coordinate(1), coordinate(2)}, 0x1p-33f};
-    }
-    if (!(error < 0x1p53)) break;
-    constexpr std::int64_t kEnd = std::int64_t{1} << 53;
-    for (int k = 0; k < 3; ++k) at[k] = std::clamp<std::int64_t>(at[k] + std::llrint(step[k]), -kEnd, kEnd);
-  }
-  return locate_exactly(planes, f, g, h);
-}
-
-bool has_exact_normal(const detail::Row& p) { return (detail::normal_spread(p) >> 53) == 0; }
-
-double norm1(const double* n) { return std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]); }
-
-/// Solves for the point of three planes n·x = d by one correction of a guess (Cramer's rule on the residuals r),
-/// and bounds the error by the residuals that remain: x − p = Σ rᵢ (nⱼ × nₖ) / det, whatever the lengths of the n.
-/// The determinant of the normals, which the bound needs anyway, is proved positive on the way.
-HEXACT_FOR_EACH_INSTRUCTION_SET
-Located locate(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h, Point3<double> x) {
-  if (!planes.is_narrow(f) || !planes.is_narrow(g) || !planes.is_narrow(h)) return locate_exactly(planes, f, g, h);
-  const detail::Row* rows[3] = {&planes.narrow(f), &planes.narrow(g), &planes.narrow(h)};
-  if (!has_exact_normal(*rows[0]) || !has_exact_normal(*rows[1]) || !has_exact_normal(*rows[2])) {
-    return locate_exactly(planes, f, g, h);
-  }
-  double n[3][4], low[3];  // offsets of up to 62 bits as a sum of two doubles
-  for (int i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 4; ++k) n[i][k] = static_cast<double>((*rows[i])[k]);
-    low[i] = static_cast<double>((*rows[i])[3] - static_cast<std::int64_t>(n[i][3]));
-  }
-  double cross[3][3];
-  for (int i = 0; i < 3; ++i) {
-    const double *u = n[(i + 1) % 3], *v = n[(i + 2) % 3];
-    cross[i][0] = u[1] * v[2] - u[2] * v[1];
-    cross[i][1] = u[2] * v[0] - u[0] * v[2];
-    cross[i][2] = u[0] * v[1] - u[1] * v[0];
-  }
-  const double det = n[0][0] * cross[0][0] + n[0][1] * cross[0][1] + n[0][2] * cross[0][2];
-  const double inverse = 1 / det;
-  double r[3];
-  for (int i = 0; i < 3; ++i) r[i] = (n[i][3] - n[i][0] * x.x - n[i][1] * x.y - n[i][2] * x.z) + low[i];
-  x.x += inverse * (r[0] * cross[0][0] + r[1] * cross[1][0] + r[2] * cross[2][0]);
-  x.y += inverse * (r[0] * cross[0][1] + r[1] * cross[1][1] + r[2] * cross[2][1]);
-  x.z += inverse * (r[0] * cross[0][2] + r[1] * cross[1][2] + r[2] * cross[2][2]);
-  const double length[3] = {norm1(n[0]), norm1(n[1]), norm1(n[2])};
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double tx = n[i][0] * x.x, ty = n[i][1] * x.y, tz = n[i][2] * x.z;
-    const double left = std::fabs((n[i][3] - tx - ty - tz) + low[i]);
-    const double rounding = 0x1.8p-51 * (std::fabs(tx) + std::fabs(ty) + std::fabs(tz) + std::fabs(n[i][3]));
-    sum += (left + rounding) * (norm1(cross[i]) + 0x1p-50 * length[(i + 1) % 3] * length[(i + 2) % 3]);
-  }
-  // The computed determinant is off by less than 2^-49 |n₁||n₂||n₃|; where that is below 2^-9 of it, 1/det is at most
-  // (1 + 2^-8) times what was computed.
-  const bool det_is_known = 0x1p-40 * length[0] * length[1] * length[2] < det;
-  const double bound = sum * inverse * (1 + 0x1p-7);
-  if (!det_is_known || !(bound < 0x1p-18)) return locate_in_words(planes, f, g, h, x);
-  return {x, upward(bound)};
-}
-
 void locate_vertices(const HoneycombMap& old_map, const RawVector<Point3<double>>& old_points,
                      const IntegerPlanes& planes, RawVector<Point3<double>>& points, RawVector<float>& errors) {
   const auto old_facets = static_cast<std::uint32_t>(old_map.facet_count());
@@ -190,7 +76,7 @@ void locate_vertices(const HoneycombMap& old_map, const RawVector<Point3<double>
     for (std::uint32_t h = range.begin(); h != range.end(); ++h) {
       const std::uint32_t a = old_map.origin(h), b = old_map.target(h);
       const Point3<double>&p = old_points[a], &q = old_points[b];
-      const Located found = locate(planes, old_map.facet(h), old_facets + a, old_facets + b,
+      const detail::LocatedVertex found = detail::locate_vertex(planes, old_map.facet(h), old_facets + a, old_facets + b,
                                    {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2});
       points[h] = found.point;
       errors[h] = found.error;
@@ -239,6 +125,11 @@ struct Progress {
   double change = 0;
   double least = 1;
   std::vector<std::uint32_t> undecided;
+
+  void add(const detail::CutFigures& figures) {
+    change = std::max(change, figures.change);
+    least = std::min(least, figures.min_parameter);
+  }
 };
 
 Progress merged(Progress a, const Progress& b) {
@@ -266,22 +157,53 @@ detail::HomogeneousPoint exact_vertex(const HoneycombMap& map, const IntegerPlan
   return m;
 }
 
+std::optional<detail::FinePoint> fine_vertex(const SnappedLevel& level, const IntegerPlanes& planes, std::uint32_t v) {
+  const auto f = level.map.facets_at(v);
+  const auto p = detail::word_plane(planes, f[0]), q = detail::word_plane(planes, f[1]), r = detail::word_plane(planes, f[2]);
+  if (!p || !q || !r) return std::nullopt;
+  return detail::meet_in_words({*p, *q, *r}, level.points[v]);
+}
+
+/// The plane that cuts vertex v, proved in 128-bit words; nullopt where these do not suffice.
+std::optional<detail::WideChoice> cut_in_words(const SnappedLevel& level, const AskedParameters& asked,
+                                               const IntegerPlanes& planes, std::uint32_t v, int guard_bits) {
+  const auto star = level.map.star(v);
+  detail::FineCorner corner;
+  corner.lambda = asked.at(star);
+  const auto at_v = fine_vertex(level, planes, v);
+  if (!at_v) return std::nullopt;
+  corner.v = *at_v;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto at_w = fine_vertex(level, planes, level.map.target(star[k]));
+    if (!at_w) return std::nullopt;
+    corner.w[k] = *at_w;
+  }
+  return detail::cut_in_words(corner, guard_bits);
+}
+
+detail::WideChoice cut_exactly(const SnappedLevel& level, const CutPolicy& policy, const IntegerPlanes& planes,
+                               std::uint32_t v, int guard_bits) {
+  const auto star = level.map.star(v);
+  detail::ExactCorner corner;
+  corner.v = exact_vertex(level.map, planes, v);
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner.w[k] = exact_vertex(level.map, planes, level.map.target(star[k]));
+    const QuadraticField lambda = asked_parameter(level.map, policy, star[k]);
+    corner.lambda[k] = lambda.is_rational() ? lambda.rational_part() : Rational::from_double(rounded_up(lambda));
+  }
+  return detail::cut_in_fixed_point(corner, guard_bits);
+}
+
 /// Chooses the planes that doubles could not, and stores them in order.
 void cut_rest(const SnappedLevel& level, const CutPolicy& policy, const SnappedOptions& options,
                       IntegerPlanes& planes, Progress& progress) {
   const std::size_t facets = level.map.facet_count();
+  const AskedParameters asked(level.map, policy);
   std::vector<detail::WideChoice> choices(progress.undecided.size());
   tbb::parallel_for(std::size_t{0}, choices.size(), [&](std::size_t i) {
     const std::uint32_t v = progress.undecided[i];
-    detail::ExactCorner corner;
-    corner.v = exact_vertex(level.map, planes, v);
-    const auto star = level.map.star(v);
-    for (std::size_t k = 0; k < 3; ++k) {
-      corner.w[k] = exact_vertex(level.map, planes, level.map.target(star[k]));
-      const QuadraticField lambda = asked_parameter(level.map, policy, star[k]);
-      corner.lambda[k] = lambda.is_rational() ? lambda.rational_part() : Rational::from_double(rounded_up(lambda));
-    }
-    choices[i] = detail::cut_in_fixed_point(corner, options.guard_bits);
+    auto choice = cut_in_words(level, asked, planes, v, options.guard_bits);
+    choices[i] = choice ? std::move(*choice) : cut_exactly(level, policy, planes, v, options.guard_bits);
   });
   for (std::size_t i = 0; i < choices.size(); ++i) {
     if (options.max_bits > 0 && choices[i].normal_bits > options.max_bits) {
@@ -290,8 +212,7 @@ void cut_rest(const SnappedLevel& level, const CutPolicy& policy, const SnappedO
                           " bits, the bound is " + std::to_string(options.max_bits));
     }
     planes.set(facets + progress.undecided[i], choices[i].plane);
-    progress.change = std::max(progress.change, choices[i].change);
-    progress.least = std::min(progress.least, choices[i].min_parameter);
+    progress.add(choices[i].figures);
   }
 }
 
@@ -316,8 +237,7 @@ Progress cut_by_parameters(const SnappedLevel& level, const CutPolicy& policy, c
       return;
     }
     planes.set(facets + v, choice->plane);
-    progress.change = std::max(progress.change, choice->change);
-    progress.least = std::min(progress.least, choice->min_parameter);
+    progress.add(choice->figures);
   });
 }
 

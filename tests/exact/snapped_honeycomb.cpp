@@ -150,6 +150,38 @@ TEST_CASE("the realised parameters are exact rationals not below those asked", "
   }
 }
 
+TEST_CASE("planes near collapsing edges, chosen in words or big integers, keep the same promise", "[snapped]") {
+  SnappedLevel before = snapped_start(tetrahedron());
+  const SizePolicy sizes = static_policy_rational();
+  std::size_t choices = 0, tested = 0, wide = 0;
+  for (int l = 1; l <= 11; ++l) {  // edges of 2e-26
+    const SnappedStep step = snapped_step(before, CutPolicy(sizes), {});
+    choices += step.figures.exact_choices;
+    const Rational largest = Rational::from_double(step.figures.max_parameter_change);
+    for (std::uint32_t v = 0, found = 0; v < before.map.vertex_count(); ++v) {
+      const std::size_t plane = before.map.facet_count() + v;
+      const bool is_wide = !step.level.planes.is_narrow(plane);
+      const auto is_long = [](std::int64_t x) { return x >= (std::int64_t{1} << 38) || x <= -(std::int64_t{1} << 38); };
+      if (!is_wide && !is_long(step.level.planes.narrow(plane)[0])) continue;
+      if (found++ % 13 != 0) continue;
+      ++tested;
+      wide += is_wide ? 1 : 0;
+      const Rational own = height(before.map, step.level.planes, plane, v);
+      REQUIRE(own.sign() > 0);
+      for (const std::uint32_t h : before.map.star(v)) {
+        const Rational other = height(before.map, step.level.planes, plane, before.map.target(h));
+        const Rational change = -other / (own - other) - asked_parameter(before.map, sizes, h).rational_part();
+        REQUIRE(change.sign() >= 0);
+        REQUIRE(change <= largest);
+      }
+    }
+    before = step.level;
+  }
+  CHECK(choices > 1000);
+  CHECK(tested > 100);
+  CHECK(wide > 10);
+}
+
 TEST_CASE("planes tangent to the inscribed sphere become smooth on the cube and are refused on the tetrahedron", "[snapped]") {
   SnappedLevel level = snapped_start(cube());
   std::vector<double> angles;
