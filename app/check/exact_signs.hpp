@@ -111,13 +111,15 @@ inline std::array<double, 4> magnitudes(const Row& r) {
   return {m(r[0]), m(r[1]), m(r[2]), m(r[3])};
 }
 
-// det3 of the normals. With |entries| <= 2^40: six products of at most 2^120.
+// det3 of the normals. With |entries| <= 2^40: six products of at most 2^120. Else in doubles as sign4 below.
 inline int sign3(const Planes& planes, std::size_t i, std::size_t j, std::size_t k) {
   if (planes.is_short(i) && planes.is_short(j) && planes.is_short(k)) {
     const Row &p = planes.row(i), &q = planes.row(j), &r = planes.row(k);
     std::uint64_t bits = 0;
     for (const Row* row : {&p, &q, &r}) bits |= magnitude((*row)[0]) | magnitude((*row)[1]) | magnitude((*row)[2]);
     if (std::bit_width(bits) <= 40) return sign_of(expand3<-1, __int128>(p, q, r));
+    const double value = expand3<-1, double>(p, q, r);
+    if (std::fabs(value) > 0x1p-48 * expand3<1, double>(magnitudes(p), magnitudes(q), magnitudes(r))) return sign_of(value);
   }
   return sign(det3(planes[i], planes[j], planes[k]));
 }

@@ -2,6 +2,7 @@
 // hexact-check CERT [MESH]: verifies a certificate of a polyhedron with GMP alone. A second implementation: it shares
 // no code with the library. Claims and their proofs are described in docs/certificates.md.
 #include "certificate_text.hpp"
+#include "corner_cut.hpp"
 #include "rounded_mesh.hpp"
 #include "surface.hpp"
 
@@ -15,16 +16,6 @@
 
 namespace check {
 namespace {
-
-// Half-space i of `of` in the coordinates of `frame`.
-Plane in_frame(const Body& of, std::size_t i, const Body& frame) {
-  Plane p = of.planes[i];
-  if (of.scale == frame.scale && of.shift == frame.shift) return p;
-  Number d = p[3] * Number(power_of_two(of.scale));
-  for (std::size_t k = 0; k < 3; ++k) d = d - p[k] * Number(mpq_class(frame.shift[k] - of.shift[k]));
-  p[3] = d * Number(power_of_two(-frame.scale));
-  return p;
-}
 
 // One text for all positive multiples: the first coefficient of the normal that is not 0 becomes ±1.
 std::string key(const Plane& p) {
@@ -72,71 +63,6 @@ std::string support_fault(const Body& body, const Edges& e, const Plane& p, std:
   return {};
 }
 
-// phs (b.2): corner h of the old loops is vertex h; old facets keep their corners; vertex v becomes a hexagon.
-Surface refined(const Surface& s, const Edges& e) {
-  Surface r;
-  const std::size_t corners = s.corner.size();
-  const auto facets = static_cast<Index>(s.facets());
-  r.start = s.start;
-  r.start.reserve(s.start.size() + s.triple.size());
-  r.corner.reserve(3 * corners);
-  r.triple.resize(corners);
-  for (Index h = 0; h < corners; ++h) {
-    r.corner.push_back(h);
-    r.triple[h] = {e.facet[h], facets + s.corner[h], facets + s.corner[e.next[h]]};
-  }
-  for (Index v = 0; v < s.triple.size(); ++v) {
-    Index h = e.leaving[v];
-    for (int k = 0; k < 3; ++k, h = e.twin[e.previous[h]]) {
-      r.corner.push_back(h);
-      r.corner.push_back(e.previous[h]);
-    }
-    r.start.push_back(static_cast<Index>(r.corner.size()));
-  }
-  return r;
-}
-
-// Each old vertex is strictly beyond its own plane of the next level.
-std::string kept_vertex_fault(const Planes& planes, const Surface& s) {
-  for (std::size_t v = 0; v < s.triple.size(); ++v) {
-    const auto& t = s.triple[v];
-    const std::size_t own = s.facets() + v;
-    if (sign3(planes, t[0], t[1], t[2]) * sign4(planes, t[0], t[1], t[2], own) < 0) continue;
-    return vertex_name(v) + ": is not beyond its own plane, det4 = " + text(det4(planes[t[0]], planes[t[1]], planes[t[2]], planes[own]));
-  }
-  return {};
-}
-
-// Whether the planes are those of `base` and then one per vertex, level by level, each level before the last convex,
-// and the loops those of the last level. That the last level is convex is the claim `convex` of the body itself: its
-// vertices are the same points, since every plane around a vertex passes through it.
-std::string replay_fault(const Body& body, const Body& base, const std::string& name) {
-  if (std::string fault = trivalent_fault(base.surface); !fault.empty()) return "body " + name + ": " + fault;
-  if (base.planes.size() > body.planes.size()) return "fewer planes than " + name;
-  for (std::size_t i = 0; i < base.planes.size(); ++i) {
-    if (base.surface.size(i) == 0) return facet_name(i) + " of " + name + ": has no loop";
-    if (!same_half_space(in_frame(base, i, body), body.planes[i])) return facet_name(i) + ": is not the plane of " + name;
-  }
-  Surface s = base.surface;
-  std::vector<Address> address = base.address;
-  for (Index level = 0; s.facets() < body.planes.size(); ++level) {
-    const std::string at = "level " + std::to_string(level) + ": ";
-    Edges e;
-    if (std::string fault = convex_fault(body.planes, s, e); !fault.empty()) return at + fault;
-    if (s.facets() + s.triple.size() > body.planes.size()) return at + "the next level needs more planes than there are";
-    if (std::string fault = kept_vertex_fault(body.planes, s); !fault.empty()) return at + fault;
-    for (Index v = 0; v < s.triple.size(); ++v) address.push_back({level + 1, v});
-    s = refined(s, e);
-  }
-  for (std::size_t f = 0; f < s.facets(); ++f) {
-    const auto *first = s.corner.data() + s.start[f], *last = s.corner.data() + s.start[f + 1];
-    const auto *begin = body.surface.corner.data() + body.surface.start[f], *end = body.surface.corner.data() + body.surface.start[f + 1];
-    if (!std::equal(first, last, begin, end)) return facet_name(f) + ": another loop than that of the honeycomb step";
-    if (!(address[f] == body.address[f])) return facet_name(f) + ": level or parent is not the one of its place";
-  }
-  return {};
-}
-
 // Decides the claims of one certificate. What several claims need is proved once; the replay of the levels runs
 // beside the proof of the last one.
 class Verifier {
@@ -146,7 +72,7 @@ class Verifier {
       if (claim.name != "corner-cut-of" || replays_.count(claim.reference) != 0) continue;
       replays_[claim.reference] = std::async(std::launch::async, [&c, name = claim.reference] {
         const Body& base = c.bodies.at(name);
-        return base.root5 == c.body.root5 ? replay_fault(c.body, base, name) : std::string();
+        return base.root5 == c.body.root5 ? corner_cut_fault(c.body, base, name) : std::string();
       }).share();
     }
   }

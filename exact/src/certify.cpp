@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/exact/certify.hpp"
 
-#include "convex_surface.hpp"
-#include "hexact/kernel/honeycomb_map.hpp"
+#include "cut_levels.hpp"
 
 #include <algorithm>
 #include <map>
@@ -185,59 +184,7 @@ class Verifier {
         return facet_name(i) + ": is not the plane of body " + reference.name;
       }
     }
-    return replay(HoneycombMap(base.loops, base.vertex_count()), base);
-  }
-
-  Fault replay(HoneycombMap map, const PlaneBody& base) const {
-    for (;;) {
-      if (map.facet_count() == body_.plane_count()) break;
-      if (Fault fault = level_fault(map); !fault.empty()) return "level " + std::to_string(map.level()) + ": " + fault;
-      if (map.facet_count() + map.vertex_count() > body_.plane_count()) {
-        return "level " + std::to_string(map.level() + 1) + ": " + std::to_string(map.facet_count() + map.vertex_count()) +
-               " planes expected, " + std::to_string(body_.plane_count()) + " found";
-      }
-      map = map.refined();
-    }
-    const FacetLoops loops = map.loops();
-    for (std::size_t f = 0; f < loops.size(); ++f) {
-      const auto expected = loops[f], found = body_.loops[f];
-      if (!std::equal(expected.begin(), expected.end(), found.begin(), found.end())) {
-        return facet_name(f) + ": its loop is not the one of the honeycomb step";
-      }
-    }
-    for (std::size_t f = 0; f < body_.addresses.size(); ++f) {
-      const auto i = static_cast<std::uint32_t>(f);
-      FacetAddress expected;
-      if (f < base.plane_count()) {
-        expected = base.addresses.size() == base.plane_count() ? base.addresses[f] : expected;
-      } else {
-        expected = {map.facet_level(i), make_id<VertexId>(map.facet_parent(i))};
-      }
-      if (!(body_.addresses[f] == expected)) return facet_name(f) + ": level or parent is not the one of its place";
-    }
-    return {};
-  }
-
-  /// A level before the last: it is convex, and each of its vertices is strictly beyond its own plane of the next.
-  Fault level_fault(const HoneycombMap& map) const {
-    detail::Triples triples(map.vertex_count());
-    for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {
-      const auto f = map.facets_at(v);
-      triples[v] = {make_id<FacetId>(f[0]), make_id<FacetId>(f[1]), make_id<FacetId>(f[2])};
-    }
-    const FacetLoops loops = map.loops();
-    if (Fault fault = detail::convex_fault(planes_, loops, triples, analyse_topology(loops, triples.size())); !fault.empty()) {
-      return fault;
-    }
-    if (map.facet_count() + map.vertex_count() > body_.plane_count()) return {};
-    const std::size_t kept = detail::first_where(triples.size(), [&](std::size_t v) {
-      const auto& t = triples[v];  // det3 > 0 by convexity
-      return detail::sign_det4(planes_, index(t[0]), index(t[1]), index(t[2]), map.facet_count() + v) >= 0;
-    });
-    if (kept == triples.size()) return {};
-    const auto& t = triples[kept];
-    return vertex_name(kept) + ": is not beyond its own plane " + std::to_string(map.facet_count() + kept) + ", det4 = " +
-           detail::det4_text(planes_, index(t[0]), index(t[1]), index(t[2]), map.facet_count() + kept);
+    return detail::replay_fault(planes_, body_, base);
   }
 
   const Certificate& certificate_;

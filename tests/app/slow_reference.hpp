@@ -250,6 +250,79 @@ Solid<S> next_level(const Solid<S>& s, const std::vector<Plane<S>>& planes, std:
   return out;
 }
 
+/// The edges (v, w), v < w, in the order in which a walk along all loops first takes them that way.
+template <class S>
+std::vector<Edge> edges_in_order(const Solid<S>& s) {
+  std::vector<Edge> out;
+  for (const auto& loop : s.loops) {
+    for (std::size_t j = 0; j < loop.size(); ++j) {
+      const Edge e{loop[j], loop[(j + 1) % loop.size()]};
+      if (e.first < e.second) out.push_back(e);
+    }
+  }
+  return out;
+}
+
+/// A chamfer step from lists: a vertex for each corner of each facet, then one for each old vertex; old facets keep
+/// their corners; edge (a, b), F on its left and G on its right, becomes m_a, G's corner at a, G's at b, m_b, F's at b, F's at a.
+template <class S>
+Solid<S> next_level_by_edges(const Solid<S>& s, const std::vector<Plane<S>>& planes, std::uint32_t level) {
+  Solid<S> out;
+  const auto left = left_facets(s);
+  const std::vector<Edge> edges = edges_in_order(s);
+  const std::size_t facets = s.loops.size();
+  std::map<Edge, std::size_t> plane;                                      // both directions → plane of the edge
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    plane[edges[e]] = plane[{edges[e].second, edges[e].first}] = facets + e;
+  }
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> corner;      // (facet, old vertex) → new vertex
+  for (std::size_t f = 0; f < facets; ++f) {
+    const auto& loop = s.loops[f];
+    std::vector<std::size_t> made;
+    for (std::size_t j = 0; j < loop.size(); ++j) {
+      const std::size_t v = loop[j], before = loop[(j + loop.size() - 1) % loop.size()], after = loop[(j + 1) % loop.size()];
+      made.push_back(corner[{f, v}] = out.points.size());
+      out.points.push_back(meet(planes[f], planes[plane[{before, v}]], planes[plane[{v, after}]]));
+    }
+    out.loops.push_back(made);
+  }
+  const std::size_t corners = out.points.size();
+  for (std::size_t v = 0; v < s.points.size(); ++v) {
+    std::vector<std::size_t> at;
+    for (const auto& [edge, own] : plane) {
+      if (edge.first == v) at.push_back(own);
+    }
+    out.points.push_back(meet(planes[at.at(0)], planes[at.at(1)], planes[at.at(2)]));
+  }
+  for (const auto& [a, b] : edges) {
+    const std::size_t f = left->at({a, b}), g = left->at({b, a});
+    out.loops.push_back({corners + a, corner[{g, a}], corner[{g, b}], corners + b, corner[{f, b}], corner[{f, a}]});
+  }
+  out.planes.assign(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(facets + edges.size()));
+  out.addresses = s.addresses;
+  for (std::size_t e = 0; e < edges.size(); ++e) out.addresses.push_back({level, make_id<VertexId>(e)});
+  return out;
+}
+
+/// Each vertex, or each end of each edge, is strictly beyond its own plane.
+template <class S>
+bool all_cut_off(const Solid<S>& level, const std::vector<Plane<S>>& planes, bool by_edges) {
+  const auto beyond = [&](std::size_t v, std::size_t own) {
+    return sign(dot(planes[own], *level.points[v]) - planes[own].d) > 0;
+  };
+  if (!by_edges) {
+    for (std::size_t v = 0; v < level.points.size(); ++v) {
+      if (!beyond(v, level.planes.size() + v)) return false;
+    }
+    return true;
+  }
+  const std::vector<Edge> edges = edges_in_order(level);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (!beyond(edges[e].first, level.planes.size() + e) || !beyond(edges[e].second, level.planes.size() + e)) return false;
+  }
+  return true;
+}
+
 template <class S>
 bool corner_cut(const Solid<S>& s, const NamedBody& reference) {  // s is convex
   Solid<S> level = solid_of<S>(reference.body);
@@ -261,12 +334,14 @@ bool corner_cut(const Solid<S>& s, const NamedBody& reference) {  // s is convex
     level.planes[i] = s.planes[i];
   }
   for (std::uint32_t k = 1; level.planes.size() < s.planes.size(); ++k) {
-    if (!convex(level) || level.planes.size() + level.points.size() > s.planes.size()) return false;
-    for (std::size_t v = 0; v < level.points.size(); ++v) {
-      const Plane<S>& own = s.planes[level.planes.size() + v];
-      if (sign(dot(own, *level.points[v]) - own.d) <= 0) return false;
-    }
-    level = next_level(level, s.planes, k);
+    if (!convex(level)) return false;
+    // The planes of level k among those that are new; in the end every address has to be the one of its place.
+    const auto made = static_cast<std::size_t>(std::count_if(s.addresses.begin() + static_cast<std::ptrdiff_t>(level.planes.size()),
+                                                             s.addresses.end(), [&](const FacetAddress& a) { return a.level == k; }));
+    const bool by_edges = made == edges_in_order(level).size();
+    if (!by_edges && made != level.points.size()) return false;
+    if (level.planes.size() + made > s.planes.size() || !all_cut_off(level, s.planes, by_edges)) return false;
+    level = by_edges ? next_level_by_edges(level, s.planes, k) : next_level(level, s.planes, k);
   }
   return level.loops == s.loops && level.addresses == s.addresses;
 }

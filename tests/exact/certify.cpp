@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "chamfer_samples.hpp"
 #include "hexact/exact/certify.hpp"
 #include "hexact/exact/honeycomb.hpp"
 #include "solid_samples.hpp"
@@ -126,4 +127,45 @@ TEST_CASE("a mesh is the correct rounding or differs by one ulp", "[certify]") {
     moved.points[v].y = Rational::from_double(std::nextafter(mesh.points[v].y.to_double(), 9.0));
     CHECK_FALSE(mesh_difference(body, moved).empty());
   }
+}
+
+TEST_CASE("every claim holds for chamfers, alone and behind honeycombs", "[certify][chamfer]") {
+  const auto all_hold = [](const PlaneBody& body, const PlaneBody& base) {
+    for (const char* name : {"closed", "planar", "trivalent", "convex"}) CHECK(decide(body, {name, ""}) == Verdict::proved);
+    for (const char* name : {"inside", "tangent", "corner-cut-of"}) CHECK(decide(body, {name, "base"}, base) == Verdict::proved);
+  };
+  for (const PlaneBody& base : {samples::cube(), samples::tetrahedron()}) {
+    for (std::uint32_t k = 1; k <= 3; ++k) {
+      const PlaneBody body = samples::chamfer(base, k);
+      const std::size_t vertices = base.vertex_count() << (2 * k);
+      CHECK(body.vertex_count() == vertices);
+      CHECK(body.loops.corner_count() == 3 * vertices);
+      all_hold(body, base);
+    }
+  }
+  all_hold(samples::chamfer(samples::generic_dodecahedron(), 2, 1, 40), samples::generic_dodecahedron());
+  all_hold(samples::chamfer(samples::honeycomb(samples::cube(), 2), 1, 3), samples::cube());
+}
+
+TEST_CASE("an edge cut is refuted where an end of an edge is kept, a level is missing, or a map is another", "[certify][chamfer]") {
+  const PlaneBody base = samples::cube();
+  const PlaneBody one = samples::with_equal_normals(base, 12);
+  const auto reason = [&](const PlaneBody& body) {
+    const auto verdicts = verify(make_certificate(body, {{"corner-cut-of", "base"}}, {{"base", base}}, {}));
+    return verdicts[0].witness;
+  };
+  const PlaneBody good = samples::chamfer(base, 2);
+  CHECK(reason(good).empty());
+  PlaneBody relabelled = good;
+  for (FacetAddress& a : relabelled.addresses) a.level = std::min(a.level, 1u);
+  CHECK(reason(relabelled).find("level 1: 60 planes follow") == 0);
+  PlaneBody other_parent = good;
+  std::swap(other_parent.addresses[20].parent, other_parent.addresses[30].parent);
+  CHECK(reason(other_parent).find("facet 20: level or parent") == 0);
+  // Lifts 0: every plane passes through its edge and cuts nothing; the level is no strictly convex solid.
+  CHECK_FALSE(reason(samples::chamfer_step(one, 1, [](std::size_t) { return Integer(0); })).empty());
+  // A solid whose first level is the cube and whose edge planes are those of the second: the lift of one edge so large
+  // that the facet beside it loses a side.
+  const PlaneBody steep = samples::chamfer_step(one, 1, [](std::size_t e) { return Integer(e == 3 ? 1 << 14 : 1 << 10); });
+  CHECK_FALSE(reason(steep).empty());
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/nef/nef_solid.hpp"
 
+#include "chamfer_samples.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "solid_samples.hpp"
 
@@ -158,4 +159,17 @@ TEST_CASE("Nef leaves bodies over Q(sqrt5) undecided", "[nef]") {
   const ClaimVerdict verdict = nef_convex(body);
   CHECK(verdict.verdict == Verdict::undecided);
   CHECK(verdict.witness.find("sqrt5") != std::string::npos);
+}
+
+TEST_CASE("Nef agrees about chamfers: convex, cut from the solid before, inside it", "[nef][chamfer]") {
+  const PlaneBody cube = samples::cube();
+  const PlaneBody two = samples::chamfer(cube, 2);
+  REQUIRE(two.plane_count() == 66);
+  CHECK(nef_convex(two).verdict == Verdict::proved);
+  CHECK(nef_corner_cut(cube, two).verdict == Verdict::proved);
+  CHECK(nef_inside(two, cube).verdict == Verdict::proved);
+  const PlaneBody behind = samples::chamfer(samples::honeycomb(cube, 1), 1, 2);
+  CHECK(nef_corner_cut(cube, behind).verdict == Verdict::proved);
+  // One edge cut less deep than its loops say.
+  CHECK(nef_corner_cut(cube, moved(two, 40, 1)).verdict == Verdict::refuted);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/validation/openscad_crosscheck.hpp"
 
+#include "chamfer_samples.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "hexact/validation/child_process.hpp"
 #include "solid_samples.hpp"
@@ -68,6 +69,12 @@ TEST_CASE("OpenSCAD agrees about a generic solid with 12 facets", "[validation][
   const PlaneBody generic = samples::generic_dodecahedron();
   CHECK(check(generic, {Route::intersection, Route::hull, Route::difference}).ours == ElementCounts{20, 30, 12});
   CHECK(check(samples::honeycomb(generic, 1)).ours == ElementCounts{60, 90, 32});
+}
+
+TEST_CASE("OpenSCAD builds the same chamfers, alone and behind a honeycomb", "[validation][openscad][chamfer]") {
+  CHECK(check(samples::chamfer(samples::cube(), 1), {Route::intersection, Route::hull, Route::difference}).ours == ElementCounts{32, 48, 18});
+  CHECK(check(samples::chamfer(samples::cube(), 2)).ours == ElementCounts{128, 192, 66});
+  CHECK(check(samples::chamfer(samples::honeycomb(samples::tetrahedron(), 1), 1, 2)).ours == ElementCounts{48, 72, 26});
 }
 
 TEST_CASE("Normals of 45 bits pass through OpenSCAD unchanged", "[validation][openscad]") {
