@@ -222,7 +222,7 @@ TEST_CASE("edited certificates: program, library and definitions give the same v
     CHECK(all_true(by_definition(c)));
   }
   std::size_t rejected = 0;
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 1700; ++seed) {
     Dice dice(seed);
     Certificate edited = certificates[seed % certificates.size()];
     edit(edited, dice);
@@ -238,7 +238,7 @@ TEST_CASE("edited certificates: program, library and definitions give the same v
     REQUIRE(by_library(*read) == expected);
     REQUIRE(by_program(run, *read) == expected);
   }
-  CHECK(rejected >= 1400);
+  CHECK(rejected >= 1200);
 }
 
 TEST_CASE("a certificate with one changed byte is rejected", "[hexact-check]") {
