@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#pragma once
+
+#include "hexact/exact/rational.hpp"
+#include "hexact/kernel/midedge.hpp"
+
+namespace hexact {
+
+// Midedge steps in exact arithmetic, see hexact/kernel/midedge.hpp.
+extern template PointArray<Rational> edge_points<Rational>(const MidedgeMap&, std::span<const Point3<Rational>>, MidedgeRule);
+extern template PointArray<Rational> corner_points<Rational>(const MidedgeMap&, std::span<const Point3<Rational>>, MidedgeRule);
+extern template MidedgeLevel<Rational> midedge_step(const MidedgeLevel<Rational>&, MidedgeRule, MidedgeBoundary);
+extern template MidedgeLevel<Rational> midedge_double_step(const MidedgeLevel<Rational>&, MidedgeRule);
+
+}  // namespace hexact

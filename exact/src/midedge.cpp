@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hexact/exact/midedge.hpp"
+
+#include "hexact/kernel/midedge_impl.hpp"
+
+namespace hexact {
+
+template PointArray<Rational> edge_points<Rational>(const MidedgeMap&, std::span<const Point3<Rational>>, MidedgeRule);
+template PointArray<Rational> corner_points<Rational>(const MidedgeMap&, std::span<const Point3<Rational>>, MidedgeRule);
+template MidedgeLevel<Rational> midedge_step(const MidedgeLevel<Rational>&, MidedgeRule, MidedgeBoundary);
+template MidedgeLevel<Rational> midedge_double_step(const MidedgeLevel<Rational>&, MidedgeRule);
+
+}  // namespace hexact
