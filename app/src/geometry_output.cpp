@@ -94,4 +94,19 @@ WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Rat
   return {rounding == 0, rounding};
 }
 
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<double>& soup) {
+  refuse_certificate(output);
+  if (output.format == io::Format::planes) {
+    throw UsageError("doubles have no exact planes; write a mesh, or use another --arithmetic");
+  }
+  for (const auto& p : soup.points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw ResourceLimit("a coordinate is beyond the range of double; --arithmetic rational has none");
+    }
+  }
+  io::write_mesh(output.path, output.format, {soup.points, soup.facets, soup.addresses}, output.mesh);
+  const double rounding = rounding_of_output(output, soup.points, 0);
+  return {rounding == 0, rounding};
+}
+
 }  // namespace hexact::app

@@ -30,5 +30,7 @@ struct WrittenGeometry {
 WrittenGeometry write_geometry(const OutputChoice& output, const PlaneBody& body);
 /// Writes polygons; as `.planes` they must bound a solid of exactly planar facets.
 WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Rational>& soup);
+/// Writes polygons of doubles as they are. Throws also UsageError for `.planes`, ResourceLimit for infinite coordinates.
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<double>& soup);
 
 }  // namespace hexact::app

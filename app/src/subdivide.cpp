@@ -5,17 +5,53 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
+#include <set>
+#include <vector>
 
 namespace hexact::app {
 namespace {
 
-using Scheme = Outcome (*)(const SubdivideOptions&, const Common&);
+struct Scheme {
+  Outcome (*refine)(const SubdivideOptions&, const Common&);
+  std::vector<std::string> arithmetics;  ///< the first is the default
+  std::set<std::string> options;         ///< beyond those of all schemes
+};
 
 const std::map<std::string, Scheme>& schemes() {
-  static const std::map<std::string, Scheme> table = {{"phs", subdivide_honeycomb}};
+  static const Scheme midedge = {subdivide_midedge, {"double", "rational"}, {"--boundary"}};
+  static const std::map<std::string, Scheme> table = {
+      {"phs", {subdivide_honeycomb, {"snapped", "rational", "qsqrt5", "double"},
+               {"--parameters", "--bits", "--certificate", "--limit-points", "--stop-min-edge", "--stop-max-panel"}}},
+      {"midedge", midedge},
+      {"midedge6", midedge},
+  };
   return table;
+}
+
+std::set<std::string> names_of_schemes() {
+  std::set<std::string> names;
+  for (const auto& [name, scheme] : schemes()) names.insert(name);
+  return names;
+}
+
+/// Options of other schemes are refused, and the scheme's default arithmetic is filled in.
+void settle(const CLI::App& command, SubdivideOptions& options) {
+  const Scheme& scheme = schemes().at(options.scheme);
+  for (const auto& [other, description] : schemes()) {
+    for (const std::string& name : description.options) {
+      if (command.count(name) > 0 && scheme.options.count(name) == 0) {
+        throw UsageError(fmt::format("--scheme {} has no option {}", options.scheme, name));
+      }
+    }
+  }
+  if (options.arithmetic.empty()) options.arithmetic = scheme.arithmetics.front();
+  const auto& known = scheme.arithmetics;
+  if (std::find(known.begin(), known.end(), options.arithmetic) == known.end()) {
+    throw UsageError(fmt::format("--scheme {} has no --arithmetic {}", options.scheme, options.arithmetic));
+  }
 }
 
 }  // namespace
@@ -40,16 +76,16 @@ std::string level_path(const std::string& pattern, unsigned level) {
 
 void add_subdivide(const Registry& registry) {
   const auto options = std::make_shared<SubdivideOptions>();
-  CLI::App* command = registry.add("subdivide", "Refine a convex polyhedron with three facets at every vertex");
+  CLI::App* command = registry.add("subdivide", "Refine a mesh by a subdivision scheme");
   command->add_option("MESH", options->input, "Input; - is standard input")->required();
   command->add_option("-o,--output", options->output, "Output; its ending names the format")->required();
   command->add_option("--from", options->from, "Format of the input");
   command->add_option("--to", options->to, "Format of the output");
-  command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember(&schemes()));
+  command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember(names_of_schemes()));
   command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 1000));
   command->add_option("--parameters", options->parameters,
                       "static, equal-u, constant=B, constant=3:2/5,4:1/4,6:0, random=SEED, tangent=sphere|ellipsoid|FILE, file=JSON");
-  command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with")
+  command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with; phs: snapped, midedge: double if not given")
       ->check(CLI::IsMember({"snapped", "rational", "qsqrt5", "double"}));
   command->add_option("--bits", options->bits, "Upper bound on the bits of a snapped plane's normal")->check(CLI::Range(22, 1 << 20));
   command->add_option("--certificate", options->certificate, "Write a certificate of the result");
@@ -58,8 +94,13 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--stop-max-panel", options->stop_max_panel, "End when all facets are at most this wide")->check(CLI::PositiveNumber);
   command->add_option("--all-levels", options->all_levels, "Write every level; %d stands for the level");
   command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")->check(CLI::IsMember({"level", "angle"}));
-  command->callback([registry, options] {
-    registry.selected = [options, &common = registry.common] { return schemes().at(options->scheme)(*options, common); };
+  command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
+      ->check(CLI::IsMember({"dual", "close", "drop"}));
+  command->callback([registry, options, command] {
+    registry.selected = [options, command, &common = registry.common] {
+      settle(*command, *options);
+      return schemes().at(options->scheme).refine(*options, common);
+    };
   });
 }
 

@@ -14,7 +14,7 @@ struct SubdivideOptions {
   std::string scheme = "phs";
   unsigned levels = 1;
   std::string parameters = "static";
-  std::string arithmetic = "snapped";
+  std::string arithmetic;  ///< set to the scheme's default before the scheme is called
   int bits = 0;
   std::string certificate;
   std::string limit_points;
@@ -22,6 +22,7 @@ struct SubdivideOptions {
   double stop_max_panel = 0;
   std::string all_levels;
   std::string color;
+  std::string boundary = "dual";
 };
 
 /// The format of an output by `--to`, else by the ending of its path. Throws UsageError.
@@ -31,5 +32,6 @@ struct SubdivideOptions {
 
 // One function per family of schemes, each in a source file of its name.
 [[nodiscard]] Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& common);
+[[nodiscard]] Outcome subdivide_midedge(const SubdivideOptions& options, const Common& common);
 
 }  // namespace hexact::app

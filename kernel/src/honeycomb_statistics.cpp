@@ -1,105 +1,17 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/kernel/honeycomb_statistics.hpp"
 
-#include "hexact/kernel/errors.hpp"
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
+#include "surface_statistics_impl.hpp"
 
 namespace hexact {
-namespace {
-
-using Range = tbb::blocked_range<std::uint32_t>;
-using Vector = Point3<double>;
-constexpr std::size_t kGrain = 1 << 13;
-
-Vector minus(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-
-struct Extremes {
-  double angle = 0, longest = 0, shortest = std::numeric_limits<double>::infinity();
-};
-
-/// Angle between unit vectors, accurate for small ones.
-double angle_between(const Vector& a, const Vector& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
-
-double diameter(const HoneycombMap& map, std::span<const Vector> points, std::uint32_t f) {
-  const std::uint32_t start = map.facet_start(f), end = start + map.facet_size(f);
-  double squared = 0;
-  for (std::uint32_t i = start; i < end; ++i) {
-    for (std::uint32_t j = i + 1; j < end; ++j) {
-      const Vector d = minus(points[map.origin(i)], points[map.origin(j)]);
-      squared = std::max(squared, dot(d, d));
-    }
-  }
-  return std::sqrt(squared);
-}
-
-double largest_diameter(const HoneycombMap& map, std::span<const Vector> points) {
-  return tbb::parallel_deterministic_reduce(
-      Range(0, static_cast<std::uint32_t>(map.facet_count()), kGrain), 0.0,
-      [&](const Range& range, double largest) {
-        for (std::uint32_t f = range.begin(); f != range.end(); ++f) largest = std::max(largest, diameter(map, points, f));
-        return largest;
-      },
-      [](double a, double b) { return std::max(a, b); });
-}
-
-}  // namespace
 
 HoneycombStatistics measure(const HoneycombMap& map, std::span<const Point3<double>> points,
                             std::span<const Point3<double>> unit_normals) {
-  HEXACT_EXPECTS(points.size() == map.vertex_count() && unit_normals.size() == map.facet_count());
-  // Both half-edges of an edge get its angle: the median over half-edges is that over edges.
-  std::vector<double> angles(map.half_edge_count());
-  const Extremes found = tbb::parallel_deterministic_reduce(
-      Range(0, static_cast<std::uint32_t>(map.half_edge_count()), kGrain), Extremes{},
-      [&](const Range& range, Extremes e) {
-        for (std::uint32_t h = range.begin(); h != range.end(); ++h) {
-          const double angle = angle_between(unit_normals[map.facet(h)], unit_normals[map.facet(map.twin(h))]);
-          angles[h] = angle;
-          if (h > map.twin(h)) continue;
-          const double edge = length(minus(points[map.origin(h)], points[map.target(h)]));
-          e = {std::max(e.angle, angle), std::max(e.longest, edge), std::min(e.shortest, edge)};
-        }
-        return e;
-      },
-      [](const Extremes& a, const Extremes& b) {
-        return Extremes{std::max(a.angle, b.angle), std::max(a.longest, b.longest), std::min(a.shortest, b.shortest)};
-      });
-  const auto middle = angles.begin() + static_cast<std::ptrdiff_t>((angles.size() - 1) / 2);
-  std::nth_element(angles.begin(), middle, angles.end());
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  return {found.angle * kDegrees, *middle * kDegrees, found.longest, found.shortest,
-          largest_diameter(map, points)};
+  return surface::measure(map, points, unit_normals);
 }
 
 std::vector<Point3<double>> newell_normals(const HoneycombMap& map, std::span<const Point3<double>> points) {
-  std::vector<Vector> normals(map.facet_count());
-  tbb::parallel_for(Range(0, static_cast<std::uint32_t>(map.facet_count()), kGrain), [&](const Range& range) {
-    for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
-      const std::uint32_t start = map.facet_start(f), end = start + map.facet_size(f);
-      const Vector& p = points[map.origin(start)];
-      Vector sum{0, 0, 0};
-      for (std::uint32_t h = start + 1; h + 1 < end; ++h) {
-        const Vector n = cross(minus(points[map.origin(h)], p), minus(points[map.origin(h + 1)], p));
-        sum = {sum.x + n.x, sum.y + n.y, sum.z + n.z};
-      }
-      const double l = length(sum);
-      normals[f] = l > 0 ? Vector{sum.x / l, sum.y / l, sum.z / l} : Vector{0, 0, 0};
-    }
-  });
-  return normals;
+  return surface::newell_normals(map, points);
 }
 
 }  // namespace hexact

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/exact/midedge.hpp"
 
+#include "hexact/kernel/midedge_counts.hpp"
 #include "midedge_samples.hpp"
 
 #include <catch2/catch.hpp>
@@ -401,4 +402,34 @@ TEST_CASE("several components are refined side by side", "[midedge]") {
   MidedgeMap map(loops, 8);
   for (int n = 0; n < 4; ++n) map = map.stepped(MidedgeBoundary::close);
   CHECK(counts(map) == std::vector<std::size_t>{96, 192, 100});
+}
+
+TEST_CASE("sizes are known before the work", "[midedge]") {
+  const auto sizes = [](const MidedgeMap& map) {
+    return MidedgeCounts{static_cast<double>(map.vertex_count()), static_cast<double>(map.edge_count()),
+                         static_cast<double>(map.facet_count())};
+  };
+  for (const Level& base : closed_samples()) {
+    CHECK(midedge_counts_after(base.map, 3, MidedgeBoundary::dual) == sizes(refined(base, 3, MidedgeRule::simple).map));
+  }
+  const auto flat = [](int i, int j) { return Point{i, j, 0}; };
+  std::vector<Level> open{grid(4, 3, flat), grid(5, 1, flat), grid(1, 1, flat), level_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
+  // Two quadrilaterals that share a vertex with 2 boundary edges each side: an L of three.
+  open.push_back(level_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 2, 0}, {1, 2, 0}},
+                          {{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}}));
+  for (const Level& base : open) {
+    MidedgeMap dual = base.map, close = base.map, drop = base.map;
+    for (unsigned n = 1; n <= 6; ++n) {
+      close = close.stepped(MidedgeBoundary::close);
+      drop = drop.stepped(MidedgeBoundary::drop);
+      check_consistent(close);
+      check_consistent(drop);
+      CHECK(midedge_counts_after(base.map, n, MidedgeBoundary::close) == sizes(close));
+      const MidedgeCounts bound = midedge_counts_after(base.map, n, MidedgeBoundary::drop);
+      CHECK((bound.vertices >= static_cast<double>(drop.vertex_count()) && bound.facets >= static_cast<double>(drop.facet_count())));
+      if (n % 2 != 0) continue;
+      dual = dual.double_stepped();
+      CHECK(midedge_counts_after(base.map, n, MidedgeBoundary::dual) == sizes(dual));
+    }
+  }
 }
