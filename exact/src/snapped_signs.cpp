@@ -2,6 +2,7 @@
 #include "hexact/exact/snapped_honeycomb.hpp"
 #include "instruction_sets.hpp"
 #include "plane_determinants.hpp"
+#include "point_signs.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -82,25 +83,12 @@ void check_vertex(const HoneycombMap& map, const IntegerPlanes& planes, std::uin
   }
 }
 
-/// Sign of d − n·x for the plane f at a point x known to `error`; 0: undecided. Conversions, products and differences
-/// add at most 6 roundings on the way of a term: together below 2^-50 of the sum of magnitudes.
-int side_by_point(const IntegerPlanes& planes, std::uint32_t f, const Point3<double>& x, double error) {
-  if (!planes.is_narrow(f)) return 0;
-  const detail::Row& p = planes.narrow(f);
-  const double a = static_cast<double>(p[0]), b = static_cast<double>(p[1]), c = static_cast<double>(p[2]);
-  const double d = static_cast<double>(p[3]), tx = a * x.x, ty = b * x.y, tz = c * x.z;
-  const double value = d - tx - ty - tz;
-  const double bound = ((std::fabs(a) + std::fabs(b) + std::fabs(c)) * error +
-                        0x1p-50 * (std::fabs(tx) + std::fabs(ty) + std::fabs(tz) + std::fabs(d))) * (1 + 0x1p-40);
-  return value > bound ? 1 : value < -bound ? -1 : 0;
-}
-
 /// Whether the far plane at the target of h keeps its origin v strictly: d − n·v > 0, the sign of det4 over det3 > 0.
 bool edge_is_strict(const SnappedLevel& level, std::uint32_t h, std::uint32_t far) {
   const std::uint32_t v = level.map.origin(h);
   const double error = level.errors[v];
   if (error < std::numeric_limits<double>::infinity()) {
-    if (const int side = side_by_point(level.planes, far, level.points[v], error); side != 0) return side > 0;
+    if (const int side = detail::side_by_point(level.planes, far, level.points[v], error); side != 0) return side > 0;
   }
   const auto f = level.map.facets_at(v);
   return detail::sign_det4(level.planes, f[0], f[1], f[2], far) > 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/kernel/honeycomb_map.hpp"
 
+#include "hexact/kernel/edge_numbering.hpp"
 #include "hexact/kernel/errors.hpp"
 
 #include <tbb/blocked_range.h>
@@ -141,11 +142,11 @@ HoneycombMap::HoneycombMap(const FacetLoops& loops, std::size_t vertex_count) {
   if (!findings.empty()) throw InvalidInput(std::move(findings));
 }
 
-HoneycombMap HoneycombMap::refined() const {
-  const std::size_t h_count = half_edge_count();
-  const std::size_t v_count = vertex_count();
-  if (3 * h_count >= std::numeric_limits<std::uint32_t>::max()) {
-    throw ResourceLimit("level " + std::to_string(level_ + 1) + " would have " + std::to_string(3 * h_count) +
+HoneycombMap HoneycombMap::successor(Cut cut) const {
+  const std::size_t h_count = half_edge_count(), cuts = cut == Cut::vertices ? vertex_count() : edge_count();
+  const std::size_t new_count = h_count + 6 * cuts;
+  if (new_count >= std::numeric_limits<std::uint32_t>::max()) {
+    throw ResourceLimit("level " + std::to_string(level_ + 1) + " would have " + std::to_string(new_count) +
                         " half-edges; 32-bit numbers allow 4294967294");
   }
   HoneycombMap r;
@@ -157,12 +158,19 @@ HoneycombMap HoneycombMap::refined() const {
   r.base_half_edges_ = base_half_edges_;
   r.base_facets_ = base_facets_;
   r.level_facets_ = level_facets_;
-  r.level_facets_.push_back(facet_count() + v_count);
+  r.level_facets_.push_back(facet_count() + cuts);
+  r.cuts_ = cuts_;
+  r.cuts_.push_back(cut);
   r.level_ = level_ + 1;
-  const auto offset = static_cast<std::uint32_t>(h_count);
-  r.parent_half_edges_ = offset;
-  r.twin_.resize(3 * h_count);
-  r.origin_.resize(3 * h_count);
+  r.parent_half_edges_ = static_cast<std::uint32_t>(h_count);
+  r.twin_.resize(new_count);
+  r.origin_.resize(new_count);
+  return r;
+}
+
+HoneycombMap HoneycombMap::refined() const {
+  HoneycombMap r = successor(Cut::vertices);
+  const std::uint32_t offset = r.parent_half_edges_;
   // Position of the hexagon half-edge that starts at vertex h in the hexagon of origin(h).
   const auto even = [&](std::uint32_t h) { return offset + 6 * origin_[h] + 2 * slot(h); };
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, offset, 1 << 14), [&](const auto& range) {
@@ -171,7 +179,7 @@ HoneycombMap HoneycombMap::refined() const {
       r.twin_[h] = even(next(h));
     }
   });
-  const auto vertices = static_cast<std::uint32_t>(v_count);
+  const auto vertices = static_cast<std::uint32_t>(vertex_count());
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, vertices, 1 << 13), [&](const auto& range) {
     for (std::uint32_t v = range.begin(); v != range.end(); ++v) {
       const auto s = star(v);
@@ -183,6 +191,47 @@ HoneycombMap HoneycombMap::refined() const {
         r.origin_[e + 1] = before;
         r.twin_[e + 1] = even(next(twin_[before])) + 1;
       }
+    }
+  });
+  return r;
+}
+
+HoneycombMap HoneycombMap::refined_at_edges(const EdgeNumbering& edges) const {
+  HEXACT_EXPECTS(edges.edge.size() == half_edge_count());
+  HoneycombMap r = successor(Cut::edges);
+  const std::uint32_t offset = r.parent_half_edges_;
+  // In the hexagon of its edge, the half-edge from vertex k to the vertex of its origin; and the one back, which
+  // lies in the hexagon of the edge before.
+  const auto inward = [&](std::uint32_t k) { return offset + 6 * edges.edge[k] + (edges.is_first(k) ? 5 : 2); };
+  const auto outward = [&](std::uint32_t k) {
+    const std::uint32_t p = previous(k);
+    return offset + 6 * edges.edge[p] + (edges.is_first(p) ? 3 : 0);
+  };
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, offset, 1 << 14), [&](const auto& range) {
+    for (std::uint32_t h = range.begin(); h != range.end(); ++h) {
+      r.origin_[h] = h;
+      r.twin_[h] = offset + 6 * edges.edge[h] + (edges.is_first(h) ? 4 : 1);
+    }
+  });
+  const auto count = static_cast<std::uint32_t>(edge_count());
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1 << 13), [&](const auto& range) {
+    for (std::uint32_t e = range.begin(); e != range.end(); ++e) {
+      const std::uint32_t h = edges.half_edge[e], g = twin_[h], base = offset + 6 * e;
+      const std::uint32_t after_h = next(h), after_g = next(g);
+      const std::array<std::uint32_t, 6> corners = {offset + origin_[h], after_g, g, offset + origin_[g], after_h, h};
+      const std::array<std::uint32_t, 6> twins = {inward(after_g), g, outward(g), inward(after_h), h, outward(h)};
+      std::copy(corners.begin(), corners.end(), r.origin_.begin() + base);
+      std::copy(twins.begin(), twins.end(), r.twin_.begin() + base);
+    }
+  });
+  const auto vertices = static_cast<std::uint32_t>(vertex_count());
+  r.edge_first_.resize(vertices);
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, vertices, 1 << 13), [&](const auto& range) {
+    for (std::uint32_t v = range.begin(); v != range.end(); ++v) {
+      const auto s = star(v);
+      const std::uint32_t h = *std::min_element(
+          s.begin(), s.end(), [&](std::uint32_t x, std::uint32_t y) { return edges.edge[x] < edges.edge[y]; });
+      r.edge_first_[v] = offset + 6 * edges.edge[h] + (edges.is_first(h) ? 0 : 3);
     }
   });
   return r;

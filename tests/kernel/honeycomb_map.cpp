@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/kernel/honeycomb_map.hpp"
 
+#include "hexact/kernel/edge_numbering.hpp"
 #include "hexact/kernel/errors.hpp"
 
 #include <catch2/catch.hpp>
@@ -64,6 +65,33 @@ Faces canonical_step(const Faces& faces) {
   return out;
 }
 
+/// A chamfer step word by word and with search: corner j of face f becomes the vertex of its half-edge, old vertex v
+/// the vertex H + v; edges in the order of half-edges a→b with a < b, each with the hexagon
+/// m_a, q_Ga, q_Gb, m_b, q_Fb, q_Fa, where a→b runs in F and b→a in G.
+Faces chamfer_step(const Faces& faces) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_left;  // (a, b) → face
+  std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> corner;     // (face, v) → new vertex
+  std::uint32_t count = 0;
+  Faces out;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    out.emplace_back();
+    for (std::size_t j = 0; j < faces[f].size(); ++j) {
+      face_left[{faces[f][j], faces[f][(j + 1) % faces[f].size()]}] = f;
+      corner[{f, faces[f][j]}] = count;
+      out.back().push_back(count++);
+    }
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t j = 0; j < faces[f].size(); ++j) {
+      const std::uint32_t a = faces[f][j], b = faces[f][(j + 1) % faces[f].size()];
+      if (a > b) continue;
+      const std::size_t g = face_left.at({b, a});
+      out.push_back({count + a, corner.at({g, a}), corner.at({g, b}), count + b, corner.at({f, b}), corner.at({f, a})});
+    }
+  }
+  return out;
+}
+
 Faces faces_of(const HoneycombMap& map) {
   Faces out;
   const FacetLoops loops = map.loops();
@@ -108,9 +136,58 @@ TEST_CASE("counts follow (b.2)", "[map]") {
   }
 }
 
-TEST_CASE("half-edge relations hold at every level", "[map]") {
+HoneycombMap refined_by(const HoneycombMap& map, Cut cut) {
+  return cut == Cut::vertices ? map.refined() : map.refined_at_edges(number_edges(map));
+}
+
+TEST_CASE("chamfer steps and honeycomb steps have their canonical loops in any order", "[map][chamfer]") {
+  for (const Faces& start : {kTetrahedron, kCube, kPrism}) {
+    for (unsigned order = 0; order < 16; ++order) {
+      HoneycombMap map(to_loops(start), vertices_in(start));
+      Faces faces = start;
+      for (std::uint32_t l = 0; l < 4; ++l) {
+        const Cut cut = (order >> l & 1) != 0 ? Cut::edges : Cut::vertices;
+        map = refined_by(map, cut);
+        faces = cut == Cut::edges ? chamfer_step(faces) : canonical_step(faces);
+        REQUIRE(map.cut_at(l + 1) == cut);
+        REQUIRE(faces_of(map) == faces);
+      }
+    }
+  }
+}
+
+TEST_CASE("a chamfer step makes V' = 4V, E' = 4E, F' = F + E", "[map][chamfer]") {
+  for (const Faces& start : {kTetrahedron, kCube, kPrism}) {
+    HoneycombMap map(to_loops(start), vertices_in(start));
+    for (std::uint32_t l = 1; l <= 6; ++l) {
+      const std::size_t v = map.vertex_count(), e = map.edge_count(), f = map.facet_count();
+      map = refined_by(map, Cut::edges);
+      CHECK(map.vertex_count() == 4 * v);
+      CHECK(map.edge_count() == 4 * e);
+      CHECK(map.facet_count() == f + e);
+      CHECK(map.vertex_count() + map.facet_count() == map.edge_count() + 2);
+    }
+  }
+}
+
+TEST_CASE("edges are numbered by their half-edges from the smaller vertex", "[map][chamfer]") {
   HoneycombMap map(to_loops(kPrism), 10);
-  for (int l = 0; l < 4; ++l, map = map.refined()) {
+  for (int l = 0; l < 5; ++l, map = refined_by(map, Cut::edges)) {
+    const EdgeNumbering numbers = number_edges(map);
+    std::uint32_t e = 0;
+    for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
+      REQUIRE(numbers.edge[h] == numbers.edge[map.twin(h)]);
+      REQUIRE(numbers.is_first(h) == (map.origin(h) < map.target(h)));
+      if (numbers.is_first(h)) REQUIRE(numbers.half_edge[e++] == h);
+    }
+    REQUIRE(e == map.edge_count());
+  }
+}
+
+TEST_CASE("half-edge relations hold at every level", "[map]") {
+  const unsigned order = GENERATE(0U, 15U, 5U, 10U, 3U);
+  HoneycombMap map(to_loops(kPrism), 10);
+  for (unsigned l = 0; l < 4; ++l, map = refined_by(map, (order >> l & 1) != 0 ? Cut::edges : Cut::vertices)) {
     for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
       REQUIRE(map.twin(map.twin(h)) == h);
       REQUIRE(map.next(map.previous(h)) == h);

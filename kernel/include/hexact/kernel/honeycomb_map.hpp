@@ -13,7 +13,12 @@
 
 namespace hexact {
 
-/// A closed map in which every vertex has valence 3, refined by planar honeycomb steps.
+struct EdgeNumbering;
+
+/// What a step cuts: every vertex (planar honeycombs) or every edge (chamfers).
+enum class Cut : std::uint8_t { vertices, edges };
+
+/// A closed map in which every vertex has valence 3, refined by honeycomb steps and by chamfer steps in any order.
 ///
 /// Half-edges are numbered facet by facet: the half-edge of corner j of facet f leaves that corner, and
 /// the facets behind the initial ones are all hexagons, so facet and successor are index arithmetic.
@@ -24,6 +29,13 @@ namespace hexact {
 /// which is the canonical numbering of planar honeycomb levels. The hexagon lists, for the facets
 /// around v counter-clockwise from the one with the smallest number, vertex h and then the vertex of
 /// the half-edge before h, h being the half-edge that leaves v in that facet.
+///
+/// A chamfer step makes, edges being numbered as EdgeNumbering does,
+///   vertex h        in the corner of h: origin of h, facet of h,      V' = H + V = 4V
+///   vertex H + v    where the three cut edges of v meet
+///   facet f < F     the old facet, corner h being vertex h,           half-edges 0 … H−1 as before
+///   facet F + e     the hexagon that cuts edge e,                     half-edges H + 6e … H + 6e + 5
+/// The hexagon of the edge with half-edges h (a→b, a < b) and g = twin h lists H + a, next(g), g, H + b, next(h), h.
 class HoneycombMap {
  public:
   /// Builds level 0. Throws InvalidInput (NotManifold, HasBoundary, NotTrivalent, NotConnected) with
@@ -67,7 +79,7 @@ class HoneycombMap {
   }
   /// The three half-edges that leave v, counter-clockwise, the first in the facet with the smallest number.
   [[nodiscard]] std::array<std::uint32_t, 3> star(std::uint32_t v) const noexcept {
-    const std::uint32_t a = level_ == 0 ? base_first_[v] : v;
+    const std::uint32_t a = first(v);
     const std::uint32_t b = twin_[previous(a)];
     return {a, b, twin_[previous(b)]};
   }
@@ -79,23 +91,41 @@ class HoneycombMap {
   /// Position (0, 1, 2) of h in `star(origin(h))`. Cost: O(1).
   [[nodiscard]] std::uint32_t slot(std::uint32_t h) const noexcept {
     if (level_ == 0) return base_slot_[h];
-    return h < parent_half_edges_ ? 0 : 1 + ((h - parent_half_edges_) & 1);
+    if (h < parent_half_edges_) return 0;
+    const std::uint32_t i = h - parent_half_edges_;
+    if (cuts_.back() == Cut::vertices) return 1 + (i & 1);
+    return i % 3 == 0 ? slot_by_search(h) : i % 3;
   }
 
   /// Level and parent of facet f.
   [[nodiscard]] std::uint32_t facet_level(std::uint32_t f) const noexcept;
-  /// Number of the vertex of level facet_level(f) − 1 that facet f cut off; f must not be a base facet.
+  /// Number of the vertex, or edge, of level facet_level(f) − 1 that facet f cut off; f must not be a base facet.
   [[nodiscard]] std::uint32_t facet_parent(std::uint32_t f) const noexcept;
+  /// What the step to level l cut, 1 <= l <= level().
+  [[nodiscard]] Cut cut_at(std::uint32_t l) const noexcept { return cuts_[l - 1]; }
 
   /// The map after one honeycomb step. Cost: O(H), in parallel, without search.
   /// Throws ResourceLimit when the half-edges would not fit 32 bits.
   [[nodiscard]] HoneycombMap refined() const;
+  /// The map after one chamfer step; `edges` is the numbering of this map. Cost and exceptions as `refined`.
+  [[nodiscard]] HoneycombMap refined_at_edges(const EdgeNumbering& edges) const;
 
   /// The vertex loops of all facets.
   [[nodiscard]] FacetLoops loops() const;
 
  private:
   HoneycombMap() = default;
+  /// The next level's map with its arrays allocated, not filled.
+  [[nodiscard]] HoneycombMap successor(Cut cut) const;
+  /// The half-edge that leaves v in the facet with the smallest number.
+  [[nodiscard]] std::uint32_t first(std::uint32_t v) const noexcept {
+    if (level_ == 0) return base_first_[v];
+    return v < parent_half_edges_ ? v : edge_first_[v - parent_half_edges_];
+  }
+  [[nodiscard]] std::uint32_t slot_by_search(std::uint32_t h) const noexcept {
+    const auto s = star(origin_[h]);
+    return s[0] == h ? 0 : s[1] == h ? 1 : 2;
+  }
   [[nodiscard]] std::uint32_t hexagon_of(std::uint32_t h) const noexcept {
     return static_cast<std::uint32_t>(base_facets_) + (h - base_half_edges_) / 6;
   }
@@ -103,7 +133,9 @@ class HoneycombMap {
   RawVector<std::uint32_t> twin_, origin_;
   std::vector<std::uint32_t> base_facet_, base_next_, base_previous_, base_slot_, base_first_;
   std::vector<std::uint32_t> base_size_, base_start_;
+  RawVector<std::uint32_t> edge_first_;  ///< after a chamfer step: `first` of the vertices H + v
   std::vector<std::size_t> level_facets_;
+  std::vector<Cut> cuts_;  ///< of the steps to levels 1, 2, …
   std::uint32_t base_half_edges_ = 0;
   std::uint32_t parent_half_edges_ = 0;
   std::uint32_t level_ = 0;
