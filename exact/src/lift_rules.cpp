@@ -140,7 +140,7 @@ class Relaxation {
       corner.own[i] = k / m[i].sine * scale[i];
       corner.behind[i] = k / m[j].sine * scale[j];
       // Width by which both sides may move in together, for either of them.
-      const double together = m[j].sine * m[i].sine + k;
+      const double together = std::max(m[j].sine * m[i].sine + k, 0x1p-20 * m[j].sine * m[i].sine);
       const double width = std::max(1 / (together * scale[i]), 1 / (together * scale[j]));
       widest[i] = std::max(widest[i], width);
       widest[j] = std::max(widest[j], width);
