@@ -64,26 +64,6 @@ Plane<Integer> in_frame(const Plane<Integer>& p, const Frame& frame) {
   return {p.a * factor, p.b * factor, p.c * factor, offset.numerator()};
 }
 
-// ---------------------------------------------------------------------------------------------- vertices
-
-void locate_vertices(const HoneycombMap& old_map, const RawVector<Point3<double>>& old_points,
-                     const IntegerPlanes& planes, RawVector<Point3<double>>& points, RawVector<float>& errors) {
-  const auto old_facets = static_cast<std::uint32_t>(old_map.facet_count());
-  const auto count = static_cast<std::uint32_t>(old_map.half_edge_count());
-  points.resize(count);
-  errors.resize(count);
-  tbb::parallel_for(Range(0, count, kGrain), [&](const Range& range) {
-    for (std::uint32_t h = range.begin(); h != range.end(); ++h) {
-      const std::uint32_t a = old_map.origin(h), b = old_map.target(h);
-      const Point3<double>&p = old_points[a], &q = old_points[b];
-      const detail::LocatedVertex found = detail::locate_vertex(planes, old_map.facet(h), old_facets + a, old_facets + b,
-                                   {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2});
-      points[h] = found.point;
-      errors[h] = found.error;
-    }
-  });
-}
-
 // ---------------------------------------------------------------------------------------------- cuts
 
 double rounded_up(const QuadraticField& x) {
@@ -369,7 +349,7 @@ SnappedStep snapped_step(SnappedLevel level, const CutPolicy& policy, const Snap
                          progress.undecided.size()};
   RawVector<Point3<double>> points;
   RawVector<float> errors;
-  locate_vertices(level.map, level.points, planes, points, errors);
+  detail::locate_vertices(level.map, level.points, planes, points, errors);
   level.points = {};
   level.errors = {};
   HoneycombMap refined = level.map.refined();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/exact/snapped_honeycomb.hpp"
+#include "four_lanes.hpp"
 #include "instruction_sets.hpp"
 #include "plane_determinants.hpp"
 #include "point_signs.hpp"
@@ -96,11 +97,68 @@ bool edge_is_strict(const SnappedLevel& level, std::uint32_t h, std::uint32_t fa
 
 double coordinate(const Point3<double>& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
-/// The edges of facet f that it owns (the half-edge with the smaller number), and its turning, in one round: the
-/// far plane of an edge is the neighbour across the next one. Strict edges run along n_f × n_g, so the difference of
-/// two corners has the signs of that direction wherever it is larger than their errors.
+/// Edges of the level, each given by its half-edge with the smaller number, collected until there are four to decide.
+class EdgeBlock {
+ public:
+  explicit EdgeBlock(const SnappedLevel& level) : level_(level) {}
+  [[gnu::always_inline]] bool add(std::uint32_t h) {
+    const std::uint32_t far = level_.map.facet(level_.map.twin(level_.map.next(h)));
+    half_edge_[count_] = h;
+    far_[count_] = far;
+    rows_[count_++] = &level_.planes.row(far);
+    return count_ < 4 || decide_four();
+  }
+  bool finish() {
+    for (std::uint32_t i = 0; i < count_; ++i) {
+      if (!edge_is_strict(level_, half_edge_[i], far_[i])) return false;
+    }
+    count_ = 0;
+    return true;
+  }
+
+ private:
+  /// `side_by_point` for four edges at once; where a lane is not decided as strict, one after another.
+  [[gnu::always_inline]] bool decide_four() {
+    detail::FourPlanes p;
+    detail::Four x, y, z, error;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t v = level_.map.origin(half_edge_[i]);
+      const Point3<double>& q = level_.points[v];
+      x[i] = q.x;
+      y[i] = q.y;
+      z[i] = q.z;
+      error[i] = level_.errors[v];
+    }
+    if (!detail::load_planes(rows_, p)) return finish();
+    using detail::magnitude;
+    const detail::Four tx = p.a * x, ty = p.b * y, tz = p.c * z;
+    const detail::Four value = p.d - tx - ty - tz;
+    const detail::Four bound = ((magnitude(p.a) + magnitude(p.b) + magnitude(p.c)) * error +
+                                0x1p-50 * (magnitude(tx) + magnitude(ty) + magnitude(tz) + magnitude(p.d))) * (1 + 0x1p-40);
+    const detail::FourWords strict = value > bound;
+    if ((strict[0] & strict[1] & strict[2] & strict[3]) == 0) return finish();
+    count_ = 0;
+    return true;
+  }
+
+  const SnappedLevel& level_;
+  std::array<std::uint32_t, 4> half_edge_{}, far_{};
+  std::array<const detail::Row*, 4> rows_{};
+  std::uint32_t count_ = 0;
+};
+
 HEXACT_FOR_EACH_INSTRUCTION_SET
-bool facet_is_strict(const SnappedLevel& level, std::uint32_t f) {
+bool edges_are_strict(const SnappedLevel& level, std::uint32_t begin, std::uint32_t end) {
+  EdgeBlock block(level);
+  for (std::uint32_t h = begin; h < end; ++h) {
+    if (h < level.map.twin(h) && !block.add(h)) return false;
+  }
+  return block.finish();
+}
+
+/// The strict edges of a facet run along n_f × n_g, so the difference of two corners has the signs of that direction
+/// wherever it is larger than their errors.
+bool facet_turns_once(const SnappedLevel& level, std::uint32_t f) {
   const HoneycombMap& map = level.map;
   const std::uint32_t start = map.facet_start(f), size = map.facet_size(f);
   const int axis = turning_axis(level.planes, f);
@@ -116,10 +174,50 @@ bool facet_is_strict(const SnappedLevel& level, std::uint32_t f) {
       if (last != 0 && s != last) ++changes;
       last = s;
     }
-    if (h < map.twin(h) && !edge_is_strict(level, h, map.facet(map.twin(next)))) return false;
     v = w;
   }
   return changes + (first != last ? 1 : 0) == 2;
+}
+
+/// The same for the hexagons f … f + 3 at once; false also where a difference is within the errors.
+[[gnu::always_inline]] inline bool four_hexagons_turn_once(const SnappedLevel& level, std::uint32_t f) {
+  const HoneycombMap& map = level.map;
+  detail::Four at[6], error[6];
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const int axis = turning_axis(level.planes, f + k);
+    const std::uint32_t start = map.facet_start(f + k);
+    for (std::uint32_t i = 0; i < 6; ++i) {
+      const std::uint32_t v = map.origin(start + i);
+      at[i][k] = coordinate(level.points[v], axis);
+      error[i][k] = level.errors[v];
+    }
+  }
+  detail::FourWords decided = {-1, -1, -1, -1}, rising[6];
+  for (int i = 0; i < 6; ++i) {
+    const int j = (i + 1) % 6;
+    const detail::Four step = at[j] - at[i], bound = (error[i] + error[j]) * (1 + 0x1p-40);
+    rising[i] = step > bound;
+    decided &= rising[i] | (step < -bound);
+  }
+  detail::FourWords changes = {0, 0, 0, 0};
+  for (int i = 0; i < 6; ++i) changes -= rising[i] ^ rising[(i + 1) % 6];
+  const detail::FourWords good = decided & (changes == detail::FourWords{2, 2, 2, 2});
+  return (good[0] & good[1] & good[2] & good[3]) != 0;
+}
+
+HEXACT_FOR_EACH_INSTRUCTION_SET
+bool facets_turn_once(const SnappedLevel& level, std::uint32_t begin, std::uint32_t end) {
+  const auto base = static_cast<std::uint32_t>(level.map.base_facet_count());
+  for (std::uint32_t f = begin; f < end;) {
+    if (f >= base && end - f >= 4 && four_hexagons_turn_once(level, f)) {
+      f += 4;
+      continue;
+    }
+    for (const std::uint32_t stop = std::min(f + 4, end); f < stop; ++f) {
+      if (!facet_turns_once(level, f)) return false;
+    }
+  }
+  return true;
 }
 
 /// A finite error bound of a located vertex says that its det3 is positive.
@@ -129,13 +227,20 @@ bool corner_is_strict(const SnappedLevel& level, std::uint32_t v) {
   return detail::sign_det3(level.planes, f[0], f[1], f[2]) > 0;
 }
 
-template <class Test>
-bool holds_for_all(std::size_t count, const Test& test) {
+bool corners_are_strict(const SnappedLevel& level, std::uint32_t begin, std::uint32_t end) {
+  for (std::uint32_t v = begin; v < end; ++v) {
+    if (!corner_is_strict(level, v)) return false;
+  }
+  return true;
+}
+
+using RangeTest = bool (*)(const SnappedLevel&, std::uint32_t, std::uint32_t);
+
+/// Whether the test holds for all ranges of [0, count).
+bool holds_for_all(const SnappedLevel& level, std::size_t count, RangeTest test) {
   std::atomic<bool> holds{true};
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 1 << 13), [&](const auto& range) {
-    for (std::uint32_t i = range.begin(); i != range.end() && holds.load(std::memory_order_relaxed); ++i) {
-      if (!test(i)) holds = false;
-    }
+    if (holds.load(std::memory_order_relaxed) && !test(level, range.begin(), range.end())) holds = false;
   });
   return holds;
 }
@@ -171,8 +276,9 @@ std::vector<SignViolation> sign_violations(const HoneycombMap& map, const Intege
 
 std::vector<SignViolation> sign_violations(const SnappedLevel& level, std::size_t limit) {
   HEXACT_EXPECTS(level.planes.size() == level.map.facet_count());
-  const bool holds = holds_for_all(level.map.vertex_count(), [&](std::uint32_t v) { return corner_is_strict(level, v); }) &&
-                     holds_for_all(level.map.facet_count(), [&](std::uint32_t f) { return facet_is_strict(level, f); });
+  const bool holds = holds_for_all(level, level.map.vertex_count(), corners_are_strict) &&
+                     holds_for_all(level, level.map.half_edge_count(), edges_are_strict) &&
+                     holds_for_all(level, level.map.facet_count(), facets_turn_once);
   return holds ? Violations{} : sign_violations(level.map, level.planes, limit);
 }
 

@@ -2,21 +2,16 @@
 #pragma once
 
 #include "hexact/exact/plane_body.hpp"
-
-#include <cstdint>
+#include "hexact/kernel/honeycomb_map.hpp"
 
 // Vertices of a level in floating point, with proven error bounds.
 namespace hexact::detail {
 
-struct LocatedVertex {
-  Point3<double> point;
-  /// Bound of |point − exact|; a finite one also says that the normals have a positive determinant, infinity nothing.
-  float error;
-};
-
-/// The vertex of the planes f, g, h near a guess, which is right to a part of the body's size at least. In doubles where
-/// these give a bound below 2^-18, else in 128-bit words, else in big integers.
-[[nodiscard]] LocatedVertex locate_vertex(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h,
-                                          Point3<double> guess);
+/// The vertices of the level after `map`, one on each of its half-edges: where the planes of the half-edge's facet and
+/// of the cuts of its two ends meet. In doubles where these give a bound below 2^-18, else in 128-bit words, else in
+/// big integers. `errors` bounds |point − exact|; a finite bound also says that the normals of the three planes have a
+/// positive determinant, infinity says nothing. In parallel; the result does not depend on the number of threads.
+void locate_vertices(const HoneycombMap& map, const RawVector<Point3<double>>& old_points, const IntegerPlanes& planes,
+                     RawVector<Point3<double>>& points, RawVector<float>& errors);
 
 }  // namespace hexact::detail

@@ -37,6 +37,8 @@ class IntegerPlanes {
   [[nodiscard]] bool is_narrow(std::size_t i) const noexcept { return narrow_[i][3] != kWide; }
   /// Precondition: is_narrow(i).
   [[nodiscard]] const Narrow& narrow(std::size_t i) const noexcept { return narrow_[i]; }
+  /// The words behind plane i; those of a wide plane mean nothing, and the last one is the least of all integers.
+  [[nodiscard]] const Narrow& row(std::size_t i) const noexcept { return narrow_[i]; }
   /// Precondition: !is_narrow(i).
   [[nodiscard]] const Plane<Integer>& wide(std::size_t i) const noexcept {
     return wide_[static_cast<std::size_t>(narrow_[i][0])];
