@@ -64,6 +64,26 @@ Plane<Integer> in_frame(const Plane<Integer>& p, const Frame& frame) {
   return {p.a * factor, p.b * factor, p.c * factor, offset.numerator()};
 }
 
+// ---------------------------------------------------------------------------------------------- vertices
+
+/// The vertex of half-edge a→b is where its facet meets the planes that cut a and b.
+void locate_vertices(const HoneycombMap& old_map, const RawVector<Point3<double>>& old_points,
+                     const IntegerPlanes& planes, RawVector<Point3<double>>& points, RawVector<float>& errors) {
+  const auto old_facets = static_cast<std::uint32_t>(old_map.facet_count());
+  const auto count = static_cast<std::uint32_t>(old_map.half_edge_count());
+  points.resize(count);
+  errors.resize(count);
+  const auto corner_of = [&](std::uint32_t h) {
+    const std::uint32_t a = old_map.origin(h), b = old_map.target(h);
+    const Point3<double>&p = old_points[a], &q = old_points[b];
+    return detail::Corner{{old_map.facet(h), old_facets + a, old_facets + b},
+                          {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2}};
+  };
+  tbb::parallel_for(Range(0, count, kGrain), [&](const Range& range) {
+    detail::locate_range(planes, range.begin(), range.end(), corner_of, points, errors);
+  });
+}
+
 // ---------------------------------------------------------------------------------------------- cuts
 
 double rounded_up(const QuadraticField& x) {
@@ -349,7 +369,7 @@ SnappedStep snapped_step(SnappedLevel level, const CutPolicy& policy, const Snap
                          progress.undecided.size()};
   RawVector<Point3<double>> points;
   RawVector<float> errors;
-  detail::locate_vertices(level.map, level.points, planes, points, errors);
+  locate_vertices(level.map, level.points, planes, points, errors);
   level.points = {};
   level.errors = {};
   HoneycombMap refined = level.map.refined();

@@ -6,9 +6,6 @@
 #include "instruction_sets.hpp"
 #include "word_points.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,15 +13,8 @@
 namespace hexact::detail {
 namespace {
 
-constexpr std::size_t kGrain = 1 << 12;
-
 /// A float above the bound: the conversion is off by at most 2^-24 of it (bounds here are far from underflow).
 float upward(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)); }
-
-struct LocatedVertex {
-  Point3<double> point;
-  float error;
-};
 
 LocatedVertex locate_exactly(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h) {
   const auto m = oriented_meet(planes[f], planes[g], planes[h]);
@@ -105,8 +95,36 @@ template <class V>
 /// Errors up to this are good enough; larger ones are worth 128-bit words.
 constexpr double kGoodError = 0x1p-18;
 
-LocatedVertex locate_in_doubles(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h,
-                                const Point3<double>& guess) {
+/// Four corners at once; false, and nothing written, where doubles do not suffice for all four.
+[[gnu::always_inline]] inline bool locate_four(const IntegerPlanes& planes, const Corner* corners, Point3<double>* points, float* errors) {
+  FourPlanes rows[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<const Row*, 4> four = {&planes.row(corners[0].planes[k]), &planes.row(corners[1].planes[k]),
+                                            &planes.row(corners[2].planes[k]), &planes.row(corners[3].planes[k])};
+    if (!load_planes(four, rows[k])) return false;
+  }
+  PlaneIn<Four> n[3];
+  for (int k = 0; k < 3; ++k) n[k] = PlaneIn<Four>{rows[k].a, rows[k].b, rows[k].c, rows[k].d, Four{}};
+  Vector<Four> guess;
+  for (int i = 0; i < 4; ++i) {
+    guess.x[i] = corners[i].guess.x;
+    guess.y[i] = corners[i].guess.y;
+    guess.z[i] = corners[i].guess.z;
+  }
+  const Solution<Four> s = solve<Four>(n, guess);
+  const FourWords good = (s.smallest_det < s.det) & (s.bound < kGoodError);
+  if ((good[0] & good[1] & good[2] & good[3]) == 0) return false;
+  for (int i = 0; i < 4; ++i) {
+    points[i] = {s.point.x[i], s.point.y[i], s.point.z[i]};
+    errors[i] = upward(s.bound[i]);
+  }
+  return true;
+}
+
+}  // namespace
+
+LocatedVertex locate_vertex(const IntegerPlanes& planes, std::uint32_t f, std::uint32_t g, std::uint32_t h,
+                            const Point3<double>& guess) {
   if (!planes.is_narrow(f) || !planes.is_narrow(g) || !planes.is_narrow(h)) return locate_in_words(planes, f, g, h, guess);
   const Row* rows[3] = {&planes.narrow(f), &planes.narrow(g), &planes.narrow(h)};
   PlaneIn<double> n[3];  // offsets of up to 62 bits as a sum of two doubles
@@ -122,66 +140,20 @@ LocatedVertex locate_in_doubles(const IntegerPlanes& planes, std::uint32_t f, st
   return {{s.point.x, s.point.y, s.point.z}, upward(s.bound)};
 }
 
-/// The vertices of the half-edges h … h + 3 of the level before: all at once where doubles suffice for all four.
-[[gnu::always_inline]] inline bool locate_four(const HoneycombMap& map, const RawVector<Point3<double>>& old_points,
-                                               const IntegerPlanes& planes, std::uint32_t h, Point3<double>* points, float* errors) {
-  const auto old_facets = static_cast<std::uint32_t>(map.facet_count());
-  std::array<const Row*, 4> f, a, b;
-  Vector<Four> guess;
-  for (std::uint32_t i = 0; i < 4; ++i) {
-    const std::uint32_t v = map.origin(h + i), w = map.target(h + i);
-    f[i] = &planes.row(map.facet(h + i));
-    a[i] = &planes.row(old_facets + v);
-    b[i] = &planes.row(old_facets + w);
-    const Point3<double>&p = old_points[v], &q = old_points[w];
-    guess.x[i] = (p.x + q.x) / 2;
-    guess.y[i] = (p.y + q.y) / 2;
-    guess.z[i] = (p.z + q.z) / 2;
-  }
-  FourPlanes rows[3];
-  if (!load_planes(f, rows[0]) || !load_planes(a, rows[1]) || !load_planes(b, rows[2])) return false;
-  PlaneIn<Four> n[3];
-  for (int i = 0; i < 3; ++i) n[i] = PlaneIn<Four>{rows[i].a, rows[i].b, rows[i].c, rows[i].d, Four{}};
-  const Solution<Four> s = solve<Four>(n, guess);
-  const FourWords good = (s.smallest_det < s.det) & (s.bound < kGoodError);
-  if ((good[0] & good[1] & good[2] & good[3]) == 0) return false;
-  for (int i = 0; i < 4; ++i) {
-    points[i] = {s.point.x[i], s.point.y[i], s.point.z[i]};
-    errors[i] = upward(s.bound[i]);
-  }
-  return true;
-}
-
 HEXACT_FOR_EACH_INSTRUCTION_SET
-void locate_range(const HoneycombMap& map, const RawVector<Point3<double>>& old_points, const IntegerPlanes& planes,
-                  std::uint32_t begin, std::uint32_t end, RawVector<Point3<double>>& points, RawVector<float>& errors) {
-  const auto old_facets = static_cast<std::uint32_t>(map.facet_count());
-  for (std::uint32_t h = begin; h < end;) {
-    if (end - h >= 4 && locate_four(map, old_points, planes, h, &points[h], &errors[h])) {
-      h += 4;
+void locate_vertices(const IntegerPlanes& planes, std::span<const Corner> corners, Point3<double>* points, float* errors) {
+  for (std::size_t i = 0; i < corners.size();) {
+    if (corners.size() - i >= 4 && locate_four(planes, &corners[i], points + i, errors + i)) {
+      i += 4;
       continue;
     }
-    for (const std::uint32_t stop = std::min(h + 4, end); h < stop; ++h) {
-      const std::uint32_t v = map.origin(h), w = map.target(h);
-      const Point3<double>&p = old_points[v], &q = old_points[w];
-      const LocatedVertex found = locate_in_doubles(planes, map.facet(h), old_facets + v, old_facets + w,
-                                                    {(p.x + q.x) / 2, (p.y + q.y) / 2, (p.z + q.z) / 2});
-      points[h] = found.point;
-      errors[h] = found.error;
+    for (const std::size_t stop = std::min(i + 4, corners.size()); i < stop; ++i) {
+      const auto& [p, guess] = corners[i];
+      const LocatedVertex found = locate_vertex(planes, p[0], p[1], p[2], guess);
+      points[i] = found.point;
+      errors[i] = found.error;
     }
   }
-}
-
-}  // namespace
-
-void locate_vertices(const HoneycombMap& map, const RawVector<Point3<double>>& old_points, const IntegerPlanes& planes,
-                     RawVector<Point3<double>>& points, RawVector<float>& errors) {
-  const auto count = static_cast<std::uint32_t>(map.half_edge_count());
-  points.resize(count);
-  errors.resize(count);
-  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, kGrain), [&](const auto& range) {
-    locate_range(map, old_points, planes, range.begin(), range.end(), points, errors);
-  });
 }
 
 }  // namespace hexact::detail
