@@ -29,3 +29,4 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/hexact.pc DESTINATION ${CMAKE_INSTALL_
 if(HEXACT_APP)
   install(FILES docs/hexact.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
+install(DIRECTORY io/schema/ DESTINATION ${CMAKE_INSTALL_DATADIR}/hexact/schema FILES_MATCHING PATTERN "*.schema.json")

@@ -10,7 +10,6 @@
 #endif
 
 #include <algorithm>
-#include <iostream>
 #include <memory>
 #include <variant>
 
@@ -91,8 +90,8 @@ ClaimVerdict by_nef(const Certificate& certificate, const Claim& claim, const Co
   NefOptions options;
   if (common.max_facets != 0) options.max_facets = common.max_facets;
   const PlaneBody& body = certificate.body;
-  if (!common.quiet && body.plane_count() > 100) {
-    std::cerr << "hexact: " << claim_text(claim) << " by Nef polyhedra, " << nef_cost_estimate(body.plane_count()) << "\n";
+  if (body.plane_count() > 100) {
+    common.remark(claim_text(claim) + " by Nef polyhedra, " + nef_cost_estimate(body.plane_count()));
   }
   if (claim.name == "convex") return nef_convex(body, options);
   const auto reference = std::find_if(certificate.bodies.begin(), certificate.bodies.end(),
@@ -108,12 +107,13 @@ ClaimVerdict by_nef(const Certificate&, const Claim&, const Common&) {
 
 /// Nef decides what is in its reach; `both` asks for agreement. The claims about loops and planes rest on the signs.
 std::vector<ClaimVerdict> decide(const Certificate& certificate, const std::string& engine, const Common& common) {
-  std::vector<ClaimVerdict> verdicts = verify(certificate);
+  std::vector<ClaimVerdict> verdicts = verify(certificate, common.work.part(0.3, engine == "planes" ? 0.9 : 0.6));
   if (engine == "planes") return verdicts;
   for (std::size_t i = 0; i < verdicts.size(); ++i) {
     const Claim& claim = certificate.claims[i];
     // Nef sees a solid; loops that bound none are refuted by the signs already.
     if (!in_reach_of_nef(claim) || (engine == "both" && verdicts[i].verdict != Verdict::proved)) continue;
+    common.work.check();
     ClaimVerdict nef = by_nef(certificate, claim, common);
     if (engine == "both" && nef.verdict == Verdict::refuted) {
       throw ContractViolation("the signs prove " + claim_text(claim) + " and Nef polyhedra refute it: " + nef.witness);
@@ -142,9 +142,10 @@ Outcome certify(const CertifyOptions& options, const Common& common) {
   }
   const Certificate certificate =
       make_certificate(std::move(body), std::move(request.claims), std::move(request.bodies),
-                       {"hexact " HEXACT_VERSION, "engine " + options.engine});
+                       {"hexact " HEXACT_VERSION, "engine " + options.engine}, common.work.part(0.1, 0.3));
   const std::vector<ClaimVerdict> verdicts = decide(certificate, options.engine, common);
   Outcome outcome = claim_outcome(verdicts);
+  common.work.report(0.9);
   if (outcome.exit_code == kDone && !options.output.empty()) io::write_certificate(options.output, certificate);
   if (options.output == "-") outcome.text.clear();
   return outcome;

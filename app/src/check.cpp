@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "claim_report.hpp"
 #include "command.hpp"
+#include "hexact/exact/mesh_difference.hpp"
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/kernel/errors.hpp"
 
@@ -14,13 +15,13 @@ struct CheckOptions {
   std::string certificate, mesh;
 };
 
-Outcome check(const CheckOptions& options) {
+Outcome check(const CheckOptions& options, const Common& common) {
   const io::Geometry geometry = io::read_geometry(options.certificate);
   const auto* certificate = std::get_if<Certificate>(&geometry);
   if (certificate == nullptr || certificate->claims.empty()) {
     throw InvalidInput("NoClaims", options.certificate + " has no claims; hexact certify proves some and writes them", "");
   }
-  std::vector<ClaimVerdict> verdicts = verify(*certificate);
+  std::vector<ClaimVerdict> verdicts = verify(*certificate, common.work.part(0.2, 0.8));
   if (!options.mesh.empty()) {
     const io::Geometry mesh = io::read_geometry(options.mesh);
     const auto* soup = std::get_if<PolygonSoup<Rational>>(&mesh);
@@ -37,8 +38,10 @@ void add_check(const Registry& registry) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command = registry.add("check", "Verify a certificate again, and that a mesh is its correct rounding");
   command->add_option("certificate", options->certificate, "Certificate")->required();
-  command->add_option("mesh", options->mesh, "Mesh whose every coordinate must be the double nearest to the exact one");
-  command->callback([&registry_selected = registry.selected, options] { registry_selected = [options] { return check(*options); }; });
+  command->add_option("mesh", options->mesh, "Mesh whose every coordinate must be the nearest double, or float32 in binary STL and PLY float");
+  command->callback([registry, options] {
+    registry.selected = [options, &common = registry.common] { return check(*options, common); };
+  });
 }
 
 }  // namespace hexact::app

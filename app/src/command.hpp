@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "hexact/kernel/progress.hpp"
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +38,9 @@ struct Common {
   std::uint64_t max_facets = 0;       ///< 0: no bound
   std::uint64_t max_memory = 0;       ///< bytes; 0: no bound
   std::string unit;                   ///< "", "mm", "m" or "in"
+  // Set by main before the subcommand runs:
+  ProgressPart work;                                ///< what the subcommand has done, and whether it shall end
+  std::function<void(const std::string&)> remark;   ///< a line on standard error; nothing under --quiet
 };
 
 /// What a finished subcommand hands back: an exit status, the JSON report and the text for people.
@@ -65,5 +70,6 @@ void add_subdivide(const Registry&);
 void add_certify(const Registry&);
 void add_check(const Registry&);
 void add_crosscheck(const Registry&);
+void add_bench(const Registry&);
 
 }  // namespace hexact::app

@@ -27,8 +27,9 @@ Counts counts_of(const PlaneBody& body) {
 }
 
 template <class Shape>
-Outcome write_result(const OutputChoice& output, const Shape& shape) {
-  const WrittenGeometry written = write_geometry(output, shape);
+Outcome write_result(const OutputChoice& output, const Shape& shape, const Common& common) {
+  common.work.report(0.4);
+  const WrittenGeometry written = write_geometry(output, shape, common.work.part(0.4, 1));
   const Counts counts = counts_of(shape);
   Outcome outcome;
   outcome.report["vertices"] = counts.vertices;
@@ -49,9 +50,9 @@ Outcome convert(const ConvertOptions& options, const Common& common) {
   output.mesh.color = options.color;
   const auto from = named_format(options.from);
   const io::Geometry geometry = io::read_geometry(options.input, from);
-  if (const auto* soup = std::get_if<PolygonSoup<Rational>>(&geometry)) return write_result(output, *soup);
-  if (const auto* body = std::get_if<PlaneBody>(&geometry)) return write_result(output, *body);
-  return write_result(output, std::get<Certificate>(geometry).body);
+  if (const auto* soup = std::get_if<PolygonSoup<Rational>>(&geometry)) return write_result(output, *soup, common);
+  if (const auto* body = std::get_if<PlaneBody>(&geometry)) return write_result(output, *body, common);
+  return write_result(output, std::get<Certificate>(geometry).body, common);
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ void add_convert(const Registry& registry) {
   command->add_option("-o,--output", options->output, "File to write; - is standard output")->required();
   command->add_option("--from", options->from, "Format of the input: obj, off, ply, stl, planes, cert");
   command->add_option("--to", options->to,
-                      "Format of the output: obj, off, ply, ply-ascii, stl, stl-ascii, planes, scad");
+                      "Format of the output: obj, off, ply, ply-ascii, ply-float, stl, stl-ascii, planes, scad");
   command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")
       ->check(CLI::IsMember({"level", "angle"}));
   command->callback([options, registry] {

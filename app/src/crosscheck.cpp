@@ -122,8 +122,10 @@ std::string to_text(const CrosscheckReport& report) {
   return text;
 }
 
-Outcome run(const CrosscheckArguments& arguments, std::uint64_t max_facets) {
+Outcome run(const CrosscheckArguments& arguments, const Common& common) {
+  const std::uint64_t max_facets = common.max_facets;
   const PlaneBody body = read_body(arguments);
+  common.work.report(0.01);
   if (max_facets != 0 && body.plane_count() > max_facets) {
     throw ResourceLimit(fmt::format("the body has {} facets, more than --max-facets {}", body.plane_count(), max_facets));
   }
@@ -131,7 +133,7 @@ Outcome run(const CrosscheckArguments& arguments, std::uint64_t max_facets) {
     if (body.field != Field::rational) throw UsageError("--keep: there is no OpenSCAD program of a body over Q(sqrt5)");
     keep_programs(body, arguments);
   }
-  const CrosscheckReport report = validation::crosscheck_openscad(body, arguments.options);
+  const CrosscheckReport report = validation::crosscheck_openscad(body, arguments.options, common.work);
   Outcome outcome;
   outcome.exit_code = report.verdict == Agreement::agree ? kDone : report.verdict == Agreement::differ ? kClaimFails : kUndecided;
   outcome.report = to_json(report);
@@ -161,7 +163,7 @@ void add_crosscheck(const Registry& registry) {
     const Common& common = registry.common;
     registry.selected = [arguments, &common] {
       if (arguments->keep == "-" && common.json) throw UsageError("--json and --keep - both want standard output");
-      return run(*arguments, common.max_facets);
+      return run(*arguments, common);
     };
   });
 }

@@ -5,6 +5,7 @@
 
 #include "hexact/exact/plane_body.hpp"
 #include "hexact/io/mesh_file.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <string>
 
@@ -25,12 +26,15 @@ struct WrittenGeometry {
   bool exact = false;       ///< the file holds the exact result
   double max_rounding = 0;  ///< upper bound of the distance between exact and written vertices
 };
-/// Writes a body, exactly as `.planes` and with correctly rounded vertices in mesh formats; triangles of STL are
-/// float32. Throws FileError, InvalidInput (NotRepresentable), UsageError for certificates.
-WrittenGeometry write_geometry(const OutputChoice& output, const PlaneBody& body);
+/// Writes a body, exactly as `.planes` and with correctly rounded vertices in mesh formats: doubles, or float32 in binary
+/// STL and ply-float. Throws FileError, InvalidInput (NotRepresentable), UsageError for certificates.
+WrittenGeometry write_geometry(const OutputChoice& output, const PlaneBody& body, const ProgressPart& progress = {});
 /// Writes polygons; as `.planes` they must bound a solid of exactly planar facets.
-WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Rational>& soup);
-/// Writes polygons of doubles as they are. Throws also UsageError for `.planes`, ResourceLimit for infinite coordinates.
-WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<double>& soup);
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Rational>& soup, const ProgressPart& progress = {});
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<QuadraticField>& soup,
+                               const ProgressPart& progress = {});
+/// Writes polygons of doubles as they are, or their nearest float32. Throws also UsageError for `.planes`, ResourceLimit
+/// for infinite coordinates.
+WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<double>& soup, const ProgressPart& progress = {});
 
 }  // namespace hexact::app

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
 #include "hexact/kernel/errors.hpp"
+#include "progress_bar.hpp"
 
 #include <fmt/format.h>
 #include <gmp.h>
 #include <tbb/global_control.h>
 #include <tbb/version.h>
 
+#include <csignal>
 #include <cstdio>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <new>
 #include <thread>
+#include <unistd.h>
 
 namespace hexact::app {
 namespace {
@@ -21,6 +24,9 @@ std::string version_text() {
   return fmt::format("hexact {}\nGMP {}\noneTBB {}.{}\nCLI11 {}\n", HEXACT_VERSION, gmp_version, TBB_VERSION_MAJOR,
                      TBB_VERSION_MINOR, CLI11_VERSION);
 }
+
+/// What shells report of a program that a signal ended, less the signal.
+constexpr int kInterrupted = 128;
 
 struct Failure {
   int exit_code = kDefect;
@@ -73,11 +79,56 @@ Failure failure_of_current_exception() {
     return {kResourceLimit, e.code(), e.what(), "", 0, ""};
   } catch (const ExternalToolError& e) {
     return {kUndecided, e.code(), e.what(), "", 0, ""};
+  } catch (const Cancelled&) {
+    return {kInterrupted + Interruption::signal(), "Cancelled", "interrupted; nothing was written", "", 0, ""};
   } catch (const std::bad_alloc&) {
     return {kResourceLimit, "OutOfMemory", "there is not enough memory", "", 0, ""};
   } catch (const std::exception& e) {
     return {kDefect, "InternalError", std::string("this is a defect of hexact: ") + e.what(), "", 0, ""};
   }
+}
+
+ProgressBar::Mode bar_mode(const Common& common) {
+  if (common.quiet) return ProgressBar::Mode::off;
+  if (common.progress) return ProgressBar::Mode::lasting;
+  return isatty(STDERR_FILENO) != 0 ? ProgressBar::Mode::passing : ProgressBar::Mode::off;
+}
+
+/// Runs the subcommand with a progress bar; Ctrl-C cancels it.
+Outcome run_selected(const std::function<Outcome()>& selected, Common& common) {
+  Progress progress;
+  const Interruption interruption(progress);
+  ProgressBar bar(progress, bar_mode(common));
+  common.work = ProgressPart(progress);
+  common.remark = [&](const std::string& line) {
+    if (!common.quiet) bar.print("hexact: " + line);
+  };
+  Outcome outcome = selected();
+  progress.raise(1);
+  return outcome;
+}
+
+int print_outcome(const Outcome& outcome, const Common& common) {
+  if (common.json) {
+    std::cout << outcome.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  } else {
+    std::cout << outcome.text << std::flush;
+  }
+  if (!std::cout) {
+    std::cerr << "hexact: standard output cannot be written\n";
+    return kBadInput;
+  }
+  return outcome.exit_code;
+}
+
+/// Ends as the signal would have ended the program, for shells and scripts that look at it.
+int end_interrupted(const Failure& failure, const Common& common) {
+  const int status = report_failure(failure, common);
+  if (status <= kInterrupted) return kDefect;
+  std::cout << std::flush;
+  std::signal(status - kInterrupted, SIG_DFL);
+  std::raise(status - kInterrupted);
+  return status;
 }
 
 int run(int argc, char** argv) {
@@ -95,6 +146,7 @@ int run(int argc, char** argv) {
   add_certify(registry);
   add_check(registry);
   add_crosscheck(registry);
+  add_bench(registry);
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -106,19 +158,10 @@ int run(int argc, char** argv) {
       common.threads > 0 ? static_cast<std::size_t>(common.threads) : std::max(1u, std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   try {
-    const Outcome outcome = selected();
-    if (common.json) {
-      std::cout << outcome.report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
-    } else {
-      std::cout << outcome.text << std::flush;
-    }
-    if (!std::cout) {
-      std::cerr << "hexact: standard output cannot be written\n";
-      return kBadInput;
-    }
-    return outcome.exit_code;
+    return print_outcome(run_selected(selected, common), common);
   } catch (...) {
-    return report_failure(failure_of_current_exception(), common);
+    const Failure failure = failure_of_current_exception();
+    return failure.code == "Cancelled" ? end_interrupted(failure, common) : report_failure(failure, common);
   }
 }
 

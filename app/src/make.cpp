@@ -68,7 +68,8 @@ ExactSoup sample(const MakeOptions& options, const Common& common) {
 Outcome make(const MakeOptions& options, const Common& common) {
   const OutputChoice output = choose_output(options.output, options.to, common);
   const ExactSoup soup = sample(options, common);
-  const WrittenGeometry written = write_exact(output, soup, std::nullopt);
+  common.work.report(0.1);
+  const WrittenGeometry written = write_exact(output, soup, std::nullopt, common.work);
   remark_rounding("make", written, common);
   const MeshTopology topology =
       std::visit([](const auto& s) { return analyse_topology(s.facets, s.points.size()); }, soup);

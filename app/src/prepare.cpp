@@ -74,8 +74,8 @@ Outcome run(const PrepareCommand& command, const Common& common) {
   const PrepareOptions options = options_of(command);
   const ExactSoup soup = exact_soup(io::read_geometry(command.input, named_format(command.from)));
   check_bounds(soup, options, common);
-  const PreparedMesh prepared = prepare(soup, options);
-  const WrittenGeometry written = write_exact(output, prepared.soup, prepared.body);
+  const PreparedMesh prepared = prepare(soup, options, common.work.part(0.2, 0.8));
+  const WrittenGeometry written = write_exact(output, prepared.soup, prepared.body, common.work.part(0.8, 1));
   remark_rounding("prepare", written, common);
   const MeshTopology topology = topology_of(prepared.soup);
   Outcome outcome;

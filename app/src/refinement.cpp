@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refinement.hpp"
 
+#include "hexact/exact/rounding.hpp"
+
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -69,7 +71,7 @@ std::variant<SizeTable, DoubleParameter> in_doubles(const CutPolicy& policy) {
   });
 }
 
-StepReport advance_level(SnappedLevel& level, const CutPolicy& policy, const SnappedOptions& options) {
+StepReport advance_level(SnappedLevel& level, const CutPolicy& policy, const SnappedOptions& options, const ProgressPart&) {
   SnappedStep step = snapped_step(std::move(level), policy, options);
   level = std::move(step.level);
   if (const auto bad = sign_violations(level); !bad.empty()) {
@@ -87,21 +89,28 @@ StepReport advance_level(SnappedLevel& level, const CutPolicy& policy, const Sna
 }
 
 template <class S>
-StepReport advance_level(HoneycombLevel<S>& level, const CutPolicy& policy, const SnappedOptions&) {
-  HoneycombStep<S> step = honeycomb_step(level, policy);
+StepReport advance_level(HoneycombLevel<S>& level, const CutPolicy& policy, const SnappedOptions&, const ProgressPart& progress) {
+  HoneycombStep<S> step = honeycomb_step(level, policy, progress);
   level = std::move(step.level);
   StepReport report;
   report.delta = step.figures.delta.str();
   return report;
 }
 
-StepReport advance_level(DoubleLevel& level, const CutPolicy& policy, const SnappedOptions&) {
+StepReport advance_level(DoubleLevel& level, const CutPolicy& policy, const SnappedOptions&, const ProgressPart&) {
   if (auto findings = condition_violations(level.map, policy); !findings.empty()) throw InvalidInput(std::move(findings));
   level = double_step(std::move(level), in_doubles(policy));
   return {};
 }
 
 }  // namespace
+
+Arithmetic arithmetic_named(const std::string& name) {
+  if (name == "rational") return Arithmetic::rational;
+  if (name == "qsqrt5") return Arithmetic::qsqrt5;
+  if (name == "double") return Arithmetic::floating;
+  return Arithmetic::snapped;
+}
 
 Refinement::Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bits)
     : level_(DoubleLevel{HoneycombMap(base.loops, base.vertex_count()), {}}) {
@@ -114,10 +123,11 @@ Refinement::Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bit
   }
 }
 
-StepReport Refinement::advance(const PolicySchedule& schedule) {
+StepReport Refinement::advance(const PolicySchedule& schedule, const ProgressPart& progress) {
+  progress.check();
   const auto start = Clock::now();
   const CutPolicy policy = schedule(map());
-  StepReport report = std::visit([&](auto& level) { return advance_level(level, policy, snapped_); }, level_);
+  StepReport report = std::visit([&](auto& level) { return advance_level(level, policy, snapped_, progress); }, level_);
   report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return report;
 }
@@ -138,17 +148,31 @@ PlaneBody Refinement::body() const {
       level_);
 }
 
-RoundedVertices Refinement::vertices() const {
-  if (const auto* level = std::get_if<DoubleLevel>(&level_)) return {{level->points.begin(), level->points.end()}, 0};
-  return rounded_vertices(body());
+RoundedVertices Refinement::vertices(FloatFormat format) const {
+  if (const auto* level = std::get_if<DoubleLevel>(&level_)) {
+    return rounded_points(std::vector<Point3<double>>(level->points.begin(), level->points.end()), format);
+  }
+  return rounded_vertices(body(), format);
+}
+
+std::vector<Point3<double>> Refinement::normals() const {
+  return std::visit(
+      [](const auto& level) -> std::vector<Point3<double>> {
+        if constexpr (std::is_same_v<std::decay_t<decltype(level)>, DoubleLevel>) {
+          return newell_normals(level.map, level.points);
+        } else {
+          return unit_normals(level.planes);
+        }
+      },
+      level_);
 }
 
 HoneycombStatistics Refinement::statistics() const {
   if (const auto* level = std::get_if<DoubleLevel>(&level_)) {
-    return measure(level->map, level->points, newell_normals(level->map, level->points));
+    return measure(level->map, level->points, normals());
   }
   if (const auto* level = std::get_if<SnappedLevel>(&level_)) {
-    HoneycombStatistics s = measure(level->map, level->points, unit_normals(level->planes));
+    HoneycombStatistics s = measure(level->map, level->points, normals());
     const double unit_length = std::ldexp(1.0, static_cast<int>(level->scale));
     for (double* x : {&s.longest_edge, &s.shortest_edge, &s.max_facet_diameter}) *x *= unit_length;
     return s;

@@ -15,6 +15,9 @@
 
 namespace hexact::app {
 
+/// By its name on the command line.
+[[nodiscard]] Arithmetic arithmetic_named(const std::string& name);
+
 /// What is reported about one step beside the measures; empty where the arithmetic does not give it.
 struct StepReport {
   std::string delta;                      ///< the exact number
@@ -30,15 +33,18 @@ class Refinement {
   /// Throws InvalidInput where the body does not suit the arithmetic.
   Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bits);
 
-  /// Replaces the level by the next one, all exact conditions decided. Throws InvalidInput naming the violation.
-  StepReport advance(const PolicySchedule& schedule);
+  /// Replaces the level by the next one, all exact conditions decided. Throws InvalidInput naming the violation;
+  /// Cancelled within a level of exact numbers, else between levels.
+  StepReport advance(const PolicySchedule& schedule, const ProgressPart& progress);
 
   [[nodiscard]] const HoneycombMap& map() const;
   /// The level as an exact body. Precondition: the arithmetic is exact.
   [[nodiscard]] PlaneBody body() const;
   /// Rounded vertices in file coordinates (exactly rounded where the arithmetic is exact).
-  [[nodiscard]] RoundedVertices vertices() const;
+  [[nodiscard]] RoundedVertices vertices(FloatFormat format = FloatFormat::binary64) const;
   [[nodiscard]] HoneycombStatistics statistics() const;
+  /// Outward unit normal of each facet, from its plane where there is one.
+  [[nodiscard]] std::vector<Point3<double>> normals() const;
   [[nodiscard]] bool is_exact() const { return !std::holds_alternative<DoubleLevel>(level_); }
 
  private:

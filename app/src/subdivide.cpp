@@ -64,8 +64,8 @@ io::Format output_format(const std::string& path, const std::string& name) {
 
 std::string level_path(const std::string& pattern, unsigned level) {
   const std::size_t at = pattern.find('%');
-  const std::size_t end = pattern.find('d', at);
-  if (end == std::string::npos) throw UsageError("--all-levels needs a pattern with %d for the level");
+  const std::size_t end = at == std::string::npos ? at : pattern.find('d', at);
+  if (end == std::string::npos) throw UsageError("--all-levels needs a pattern with %d for the level, e.g. level%d.planes");
   const std::string width = pattern.substr(at + 1, end - at - 1);
   if (width.find_first_not_of("0123456789") != std::string::npos || width.size() > 2) {
     throw UsageError("--all-levels: only %d or %0Nd may stand in the pattern");

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "body_input.hpp"
+#include "geometry_output.hpp"
 #include "hexact/exact/body_from_soup.hpp"
 #include "hexact/exact/certify.hpp"
 #include "hexact/io/mesh_file.hpp"
-#include "hexact/io/output_file.hpp"
 #include "hexact/io/parameters_file.hpp"
+#include "limit_points_output.hpp"
 #include "refinement.hpp"
 #include "subdivide.hpp"
 
@@ -17,13 +18,6 @@
 namespace hexact::app {
 namespace {
 
-Arithmetic arithmetic_named(const std::string& name) {
-  if (name == "rational") return Arithmetic::rational;
-  if (name == "qsqrt5") return Arithmetic::qsqrt5;
-  if (name == "double") return Arithmetic::floating;
-  return Arithmetic::snapped;
-}
-
 void check_combination(const SubdivideOptions& options, const Common& common) {
   if (common.json && options.output == "-") throw UsageError("--json and -o - both need standard output");
   if (!options.certificate.empty() && options.arithmetic == "double") {
@@ -32,9 +26,7 @@ void check_combination(const SubdivideOptions& options, const Common& common) {
   if (options.arithmetic == "double" && output_format(options.output, options.to) == io::Format::planes) {
     throw UsageError("doubles have no exact planes; write a mesh, or use another --arithmetic");
   }
-  if (!options.all_levels.empty() && options.all_levels.find('%') == std::string::npos) {
-    throw UsageError("--all-levels needs a pattern with %d (or {}) for the level, e.g. level%d.planes");
-  }
+  if (!options.all_levels.empty()) (void)level_path(options.all_levels, 0);
 }
 
 /// The points of the body that a file describes, for planes tangent to their convex hull.
@@ -117,43 +109,21 @@ std::string text_row(const nlohmann::ordered_json& row) {
 
 /// Writes a level; returns the proven bound of the rounding (0 for exact formats).
 double write_level(const Refinement& refinement, const std::string& path, io::Format format, const SubdivideOptions& options,
-                   const Common& common) {
-  if (format == io::Format::planes) {
-    io::write_planes(path, refinement.body());
-    return 0;
-  }
-  const RoundedVertices vertices = refinement.vertices();
+                   const Common& common, const ProgressPart& progress) {
+  const OutputChoice output{path, format, {options.color, common.unit}};
+  if (refinement.is_exact()) return write_geometry(output, refinement.body(), progress).max_rounding;
+  const RoundedVertices vertices = refinement.vertices(io::coordinate_format(format));
   const FacetLoops loops = refinement.map().loops();
-  const auto addresses = addresses_of(refinement.map());
-  io::write_mesh(path, format, {vertices.points, loops, addresses}, {options.color, common.unit});
+  io::write_mesh(path, format, {vertices.points, loops, addresses_of(refinement.map())}, output.mesh);
   return vertices.max_rounding;
 }
 
-/// A point of every facet near the limit point, the plane, and a bound: the limit point lies in the facet.
-void write_limit_points(const Refinement& refinement, const std::string& path) {
-  const RoundedVertices vertices = refinement.vertices();
-  const HoneycombMap& map = refinement.map();
-  const auto normals = newell_normals(map, vertices.points);
-  nlohmann::ordered_json facets = nlohmann::ordered_json::array();
-  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
-    Point3<double> c{0, 0, 0};
-    const std::uint32_t start = map.facet_start(f), n = map.facet_size(f);
-    for (std::uint32_t h = start; h < start + n; ++h) {
-      const auto& p = vertices.points[map.origin(h)];
-      c = {c.x + p.x / n, c.y + p.y / n, c.z + p.z / n};
-    }
-    double bound = 0;
-    for (std::uint32_t h = start; h < start + n; ++h) {
-      const auto& p = vertices.points[map.origin(h)];
-      bound = std::max(bound, std::hypot(p.x - c.x, p.y - c.y, p.z - c.z));
-    }
-    bound = bound * (1 + 1e-12) + vertices.max_rounding;
-    const auto& u = normals[f];
-    facets.push_back({{"facet", f}, {"point", {c.x, c.y, c.z}},
-                      {"plane", {u.x, u.y, u.z, u.x * c.x + u.y * c.y + u.z * c.z}}, {"bound", bound}});
-  }
-  const nlohmann::ordered_json document = {{"hexact", "limit-points"}, {"version", 1}, {"facets", facets}};
-  io::write_file(path, document.dump(1) + "\n");
+/// The policy of all further levels, where it is one of sizes and known.
+std::optional<SizePolicy> lasting_policy(const SubdivideOptions& options, const PolicySchedule& schedule, const HoneycombMap& map) {
+  if (options.parameters.starts_with("file=")) return std::nullopt;  // single levels may differ
+  const CutPolicy policy = schedule(map);
+  const auto* sizes = std::get_if<SizePolicy>(&policy);
+  return sizes != nullptr ? std::optional(*sizes) : std::nullopt;
 }
 
 /// The input in the frame of the result, whose first planes are its planes, exactly.
@@ -176,7 +146,8 @@ PlaneBody reference_body(const PlaneBody& input, const PlaneBody& result) {
 }
 
 /// Every claim about a chain of honeycomb steps; the signs behind them were decided level by level.
-void write_chain_certificate(const BodyInput& input, PlaneBody result, const SubdivideOptions& options) {
+void write_chain_certificate(const BodyInput& input, PlaneBody result, const SubdivideOptions& options,
+                             const ProgressPart& progress) {
   const std::string name = "input";
   std::vector<Claim> claims = {{"closed", ""}, {"planar", ""}, {"trivalent", ""}, {"convex", ""},
                                {"inside", name}, {"tangent", name}, {"corner-cut-of", name}};
@@ -186,7 +157,7 @@ void write_chain_certificate(const BodyInput& input, PlaneBody result, const Sub
                   options.parameters, options.arithmetic)};
   PlaneBody base = reference_body(input.body, result);
   const Certificate certificate =
-      make_certificate(std::move(result), std::move(claims), {{name, std::move(base)}}, std::move(provenance));
+      make_certificate(std::move(result), std::move(claims), {{name, std::move(base)}}, std::move(provenance), progress);
   io::write_certificate(options.certificate, certificate);
 }
 
@@ -214,12 +185,21 @@ struct Totals {
   std::string stopped;
 };
 
+/// Each level costs three times the one before.
+ProgressPart share_of_level(const ProgressPart& progress, unsigned level, unsigned levels) {
+  const auto cost_before = [&](unsigned l) { return std::pow(3.0, static_cast<double>(l) - levels); };
+  return progress.part(level == 1 ? 0 : cost_before(level - 1), cost_before(level));
+}
+
 void refine(std::unique_ptr<Refinement>& current, const SubdivideOptions& options, const PolicySchedule& schedule,
             const Common& common, nlohmann::ordered_json& rows, Totals& totals) {
   const bool may_step_back = options.stop_min_edge > 0;
+  const ProgressPart progress = common.work.part(0.05, 0.7);
+  progress.report(0);
   for (unsigned l = 1; l <= options.levels; ++l) {
     std::unique_ptr<Refinement> before = may_step_back ? std::make_unique<Refinement>(*current) : nullptr;
-    const StepReport step = current->advance(schedule);
+    const StepReport step = current->advance(schedule, share_of_level(progress, l, options.levels));
+    share_of_level(progress, l, options.levels).report(1);
     const HoneycombStatistics s = current->statistics();
     const Stop stop = stopping(options, s, l);
     if (!stop.keep_new) {
@@ -235,7 +215,7 @@ void refine(std::unique_ptr<Refinement>& current, const SubdivideOptions& option
     }
     if (!options.all_levels.empty()) {
       const std::string path = level_path(options.all_levels, l);
-      write_level(*current, path, output_format(path, options.to), options, common);
+      write_level(*current, path, output_format(path, options.to), options, common, {});
     }
     if (stop.finished) {
       totals.stopped = stop.reason;
@@ -278,12 +258,15 @@ Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& commo
   report["levels"] = rows;
   report["output"] = options.output;
   report["certificate"] = options.certificate.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.certificate);
-  if (!options.certificate.empty()) write_chain_certificate(input, current->body(), options);
-  report["max_rounding"] = write_level(*current, options.output, format, options, common);
+  if (!options.certificate.empty()) write_chain_certificate(input, current->body(), options, common.work.part(0.7, 0.8));
+  report["max_rounding"] = write_level(*current, options.output, format, options, common, common.work.part(0.8, 0.9));
   report["max_parameter_change"] = totals.has_change ? nlohmann::ordered_json(totals.change) : nlohmann::ordered_json();
   report["min_parameter"] = totals.has_change ? nlohmann::ordered_json(totals.least) : nlohmann::ordered_json();
   if (!totals.stopped.empty()) report["stopped"] = totals.stopped;
-  if (!options.limit_points.empty()) write_limit_points(*current, options.limit_points);
+  if (!options.limit_points.empty()) {
+    write_limit_points(options.limit_points, *current, options, lasting_policy(options, schedule, current->map()),
+                       common.work.part(0.9, 1));
+  }
   if (options.output != "-") outcome.text = report_text(report);
   return outcome;
 }

@@ -10,7 +10,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <iostream>
 
 namespace hexact::app {
 namespace {
@@ -151,14 +150,16 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
   };
   write_too();
   while (level.map.level() < options.levels) {
+    // Each level costs about four times the one before.
+    common.work.report(0.05 + 0.8 * std::pow(4.0, static_cast<double>(level.map.level()) - options.levels));
     const auto begin = Clock::now();
     level = plan.doubled ? midedge_double_step(level, plan.rule) : midedge_step(level, plan.rule, plan.boundary);
     rows.push_back(level_row(level, std::chrono::duration<double>(Clock::now() - begin).count()));
     write_too();
   }
-  if (!common.quiet && level.map.pinched_vertex_count() > 0) {
-    std::cerr << fmt::format("hexact subdivide: --boundary drop made {} pinched vertices: the result is no manifold\n",
-                             level.map.pinched_vertex_count());
+  if (level.map.pinched_vertex_count() > 0) {
+    common.remark(fmt::format("subdivide: --boundary drop made {} pinched vertices: the result is no manifold",
+                              level.map.pinched_vertex_count()));
   }
   Outcome outcome;
   outcome.report["scheme"] = options.scheme;

@@ -99,7 +99,7 @@ class Verifier {
       : certificate_(certificate), body_(certificate.body), planes_(Traits<S>::all(body_)),
         topology_(analyse_topology(body_.loops, body_.vertex_count())) {}
 
-  Fault decide(const Claim& claim) {
+  Fault decide(const Claim& claim, const ProgressPart& progress) {
     if (claim.name == "closed") return detail::closed_fault(topology_);
     if (claim.name == "planar") return detail::planar_fault(planes_, body_.loops, body_.triples);
     if (claim.name == "trivalent") return detail::trivalent_fault(body_.loops, body_.vertex_count());
@@ -110,7 +110,7 @@ class Verifier {
     if (named->body.field != body_.field) return "body " + claim.reference + " is over another field";
     if (claim.name == "inside") return inside(*named, false);
     if (claim.name == "tangent") return inside(*named, true);
-    return corner_cut(*named);
+    return corner_cut(*named, progress);
   }
 
  private:
@@ -170,7 +170,7 @@ class Verifier {
     return {};
   }
 
-  Fault corner_cut(const NamedBody& reference) {
+  Fault corner_cut(const NamedBody& reference, const ProgressPart& progress) {
     if (!convex().empty()) return convex();
     const PlaneBody& base = reference.body;
     if (Fault fault = reference_fault(reference); !fault.empty()) return fault;
@@ -184,7 +184,7 @@ class Verifier {
         return facet_name(i) + ": is not the plane of body " + reference.name;
       }
     }
-    return detail::replay_fault(planes_, body_, base);
+    return detail::replay_fault(planes_, body_, base, progress);
   }
 
   const Certificate& certificate_;
@@ -204,7 +204,7 @@ bool is_convex(const PlaneBody& b) {
 /// convex, `verify` then names the reason.
 /// Walks uphill along n: an edge along n_f × n_g rises where det(n, f, g) > 0. Ends at a supporting vertex.
 template <class S>
-void add_supports(Certificate& out, const NamedBody& reference) {
+void add_supports(Certificate& out, const NamedBody& reference, const ProgressPart& progress) {
   const PlaneBody& body = out.body;
   const Pair<S> pair(body, reference.body);
   const auto is_set = [](bool b) { return b; };
@@ -215,6 +215,7 @@ void add_supports(Certificate& out, const NamedBody& reference) {
   std::uint32_t v = edges.origin[0];
   for (std::size_t i = 0; i < pair.is_facet.size(); ++i) {
     if (pair.is_facet[i]) continue;
+    progress.check();
     for (bool risen = true; risen;) {
       risen = false;
       for (const std::uint32_t h : edges.around(leaving[v])) {
@@ -229,11 +230,15 @@ void add_supports(Certificate& out, const NamedBody& reference) {
 }
 
 template <class S>
-std::vector<ClaimVerdict> verify_over(const Certificate& certificate) {
+std::vector<ClaimVerdict> verify_over(const Certificate& certificate, const ProgressPart& progress) {
+  progress.check();
   Verifier<S> verifier(certificate);
   std::vector<ClaimVerdict> out;
+  const double claims = static_cast<double>(certificate.claims.size());
   for (const Claim& claim : certificate.claims) {
-    const Fault fault = verifier.decide(claim);
+    const double before = static_cast<double>(out.size());
+    progress.report(before / claims);
+    const Fault fault = verifier.decide(claim, progress.part(before / claims, (before + 1) / claims));
     out.push_back({claim_text(claim), fault.empty() ? Verdict::proved : Verdict::refuted, fault});
   }
   return out;
@@ -269,7 +274,7 @@ Verdict overall(const std::vector<ClaimVerdict>& verdicts) noexcept {
 }
 
 Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vector<NamedBody> references,
-                             std::vector<std::string> provenance) {
+                             std::vector<std::string> provenance, const ProgressPart& progress) {
   Certificate out{std::move(body), std::move(claims), std::move(references), {}, std::move(provenance)};
   expect_consistent(out.body);
   for (const NamedBody& b : out.bodies) expect_consistent(b.body);
@@ -285,46 +290,17 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
     if (claim.name == "corner-cut-of" || std::find(done.begin(), done.end(), named->name) != done.end()) continue;
     done.push_back(named->name);
     if (named->body.field != out.body.field) continue;  // `verify` names the reason
-    if (out.body.field == Field::rational) add_supports<Rational>(out, *named);
-    if (out.body.field == Field::sqrt5) add_supports<QuadraticField>(out, *named);
+    if (out.body.field == Field::rational) add_supports<Rational>(out, *named, progress);
+    if (out.body.field == Field::sqrt5) add_supports<QuadraticField>(out, *named, progress);
   }
   return out;
 }
 
-std::vector<ClaimVerdict> verify(const Certificate& certificate) {
+std::vector<ClaimVerdict> verify(const Certificate& certificate, const ProgressPart& progress) {
   expect_consistent(certificate.body);
   for (const NamedBody& b : certificate.bodies) expect_consistent(b.body);
-  return certificate.body.field == Field::rational ? verify_over<Rational>(certificate)
-                                                   : verify_over<QuadraticField>(certificate);
-}
-
-std::string mesh_difference(const PlaneBody& body, const PolygonSoup<Rational>& mesh) {
-  expect_consistent(body);
-  if (mesh.points.size() != body.vertex_count()) {
-    return std::to_string(mesh.points.size()) + " vertices, expected " + std::to_string(body.vertex_count());
-  }
-  std::size_t facet = 0;
-  for (std::size_t f = 0; f < body.loops.size(); ++f) {
-    const auto expected = body.loops[f];
-    if (expected.empty()) continue;
-    if (facet >= mesh.facets.size()) return std::to_string(mesh.facets.size()) + " facets, more were expected";
-    const auto found = mesh.facets[facet];
-    if (!std::equal(expected.begin(), expected.end(), found.begin(), found.end())) return facet_name(facet) + ": another loop";
-    ++facet;
-  }
-  if (facet != mesh.facets.size()) return std::to_string(mesh.facets.size()) + " facets, expected " + std::to_string(facet);
-  const RoundedVertices rounded = rounded_vertices(body);
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
-    const Point3<Rational>& m = mesh.points[v];
-    const Point3<double>& e = rounded.points[v];
-    const std::array<std::pair<double, double>, 3> pairs{{{m.x.to_double(), e.x}, {m.y.to_double(), e.y}, {m.z.to_double(), e.z}}};
-    for (const auto& [found, expected] : pairs) {
-      if (found == expected) continue;
-      return vertex_name(v) + ": coordinate " + Rational::from_double(found).str() + ", the correct rounding is " +
-             Rational::from_double(expected).str();
-    }
-  }
-  return {};
+  return certificate.body.field == Field::rational ? verify_over<Rational>(certificate, progress)
+                                                   : verify_over<QuadraticField>(certificate, progress);
 }
 
 }  // namespace hexact

@@ -3,6 +3,7 @@
 
 #include "convex_surface.hpp"
 #include "hexact/kernel/honeycomb_map.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <array>
 #include <cstdint>
@@ -70,11 +71,12 @@ Fault kept_fault(const Planes& planes, const HoneycombMap& map, const Triples& t
 /// corners or edges level by level: the counts of planes, each level before the last convex with what it cuts off
 /// strictly beyond its planes, and loops and addresses of the last. That the last is convex is another claim.
 template <class Planes>
-Fault replay_fault(const Planes& planes, const PlaneBody& body, const PlaneBody& base) {
+Fault replay_fault(const Planes& planes, const PlaneBody& body, const PlaneBody& base, const ProgressPart& progress = {}) {
   CutLevel level{HoneycombMap(base.loops, base.vertex_count()), base.addresses};
   level.addresses.resize(base.plane_count());
   if (body.addresses.size() != planes.size()) return "the planes have no levels";
   for (std::uint32_t number = 1; level.map.facet_count() < planes.size(); ++number) {
+    progress.report(static_cast<double>(level.map.facet_count()) / static_cast<double>(planes.size()));
     const std::string at = "level " + std::to_string(number) + ": ";
     const NextCut next = next_cut(level.map, body.addresses, number);
     if (!next.kind) {

@@ -20,9 +20,10 @@ HoneycombLevel<S> honeycomb_start(const PlaneBody& body) {
 }
 
 template <class S>
-HoneycombStep<S> honeycomb_step(const HoneycombLevel<S>& level, const CutPolicy& policy) {
+HoneycombStep<S> honeycomb_step(const HoneycombLevel<S>& level, const CutPolicy& policy, const ProgressPart& progress) {
+  progress.check();
   if (const auto* free = std::get_if<PlanePolicy>(&policy)) return detail::step_by_planes(level, *free);
-  return detail::step_by_parameters(level, policy);
+  return detail::step_by_parameters(level, policy, progress);
 }
 
 template <class S>
@@ -46,8 +47,9 @@ PlaneBody to_plane_body(const HoneycombLevel<S>& level) {
 
 template HoneycombLevel<Rational> honeycomb_start(const PlaneBody&);
 template HoneycombLevel<QuadraticField> honeycomb_start(const PlaneBody&);
-template HoneycombStep<Rational> honeycomb_step(const HoneycombLevel<Rational>&, const CutPolicy&);
-template HoneycombStep<QuadraticField> honeycomb_step(const HoneycombLevel<QuadraticField>&, const CutPolicy&);
+template HoneycombStep<Rational> honeycomb_step(const HoneycombLevel<Rational>&, const CutPolicy&, const ProgressPart&);
+template HoneycombStep<QuadraticField> honeycomb_step(const HoneycombLevel<QuadraticField>&, const CutPolicy&,
+                                                      const ProgressPart&);
 template PlaneBody to_plane_body(const HoneycombLevel<Rational>&);
 template PlaneBody to_plane_body(const HoneycombLevel<QuadraticField>&);
 

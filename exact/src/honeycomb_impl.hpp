@@ -22,8 +22,9 @@ inline Rational parameter_in(const QuadraticField& x, const Rational*) {
 inline QuadraticField parameter_in(const QuadraticField& x, const QuadraticField*) { return x; }
 
 template <class F>
-void for_each_index(std::size_t count, const F& work) {
+void for_each_index(std::size_t count, const F& work, const ProgressPart& progress = {}) {
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, static_cast<std::uint32_t>(count), 16), [&](const auto& range) {
+    progress.check();
     for (std::uint32_t i = range.begin(); i != range.end(); ++i) work(i);
   });
 }
@@ -74,14 +75,15 @@ inline std::string edge_name(const HoneycombMap& map, std::uint32_t h) {
 
 /// The new vertices: facet(h) ∩ H_origin ∩ H_target for each half-edge h, phs (h.1).
 template <class S>
-std::vector<Point3<S>> new_points(const HoneycombMap& map, const std::vector<Plane<S>>& planes) {
+std::vector<Point3<S>> new_points(const HoneycombMap& map, const std::vector<Plane<S>>& planes,
+                                  const ProgressPart& progress = {}) {
   const auto ring = ring_planes(planes);
   const std::size_t old = map.facet_count();
   std::vector<Point3<S>> out(map.half_edge_count());
   for_each_index(out.size(), [&](std::uint32_t h) {
     out[h] = meet_in<S>(ring[map.facet(h)], ring[old + map.origin(h)], ring[old + map.target(h)], "LatticeLost",
                         edge_name(map, h));
-  });
+  }, progress);
   return out;
 }
 
@@ -105,7 +107,7 @@ struct Cuts {
 };
 
 template <class S>
-Cuts<S> cuts_by_parameters(const HoneycombLevel<S>& level, const std::vector<S>& lambda) {
+Cuts<S> cuts_by_parameters(const HoneycombLevel<S>& level, const std::vector<S>& lambda, const ProgressPart& progress) {
   const HoneycombMap& map = level.map;
   const auto vertices = ring_points(level.points);
   Cuts<S> cuts;
@@ -115,7 +117,7 @@ Cuts<S> cuts_by_parameters(const HoneycombLevel<S>& level, const std::vector<S>&
     const auto s = map.star(v);
     cuts.planes[v] = canonical(
         plane_through<Ring<S>>({cuts.points[s[0]], cuts.points[s[1]], cuts.points[s[2]]}, vertices[v], v));
-  });
+  }, progress);
   return cuts;
 }
 
@@ -159,21 +161,25 @@ S corner_gap(const HoneycombMap& map, std::uint32_t h, const std::vector<RingPoi
 }
 
 template <class S>
-S smallest_gap(const HoneycombMap& map, const std::vector<RingPoint<Ring<S>>>& cuts, const std::vector<Point3<S>>& fresh) {
+S smallest_gap(const HoneycombMap& map, const std::vector<RingPoint<Ring<S>>>& cuts, const std::vector<Point3<S>>& fresh,
+               const ProgressPart& progress = {}) {
   std::vector<S> gaps(fresh.size());
-  for_each_index(gaps.size(), [&](std::uint32_t h) { gaps[h] = corner_gap(map, h, cuts, fresh); });
+  for_each_index(gaps.size(), [&](std::uint32_t h) { gaps[h] = corner_gap(map, h, cuts, fresh); }, progress);
   return minimum(gaps);
 }
 
 template <class S>
-HoneycombStep<S> step_by_parameters(const HoneycombLevel<S>& level, const CutPolicy& policy) {
+HoneycombStep<S> step_by_parameters(const HoneycombLevel<S>& level, const CutPolicy& policy, const ProgressPart& progress) {
   if (auto findings = condition_violations(level.map, policy); !findings.empty()) throw InvalidInput(std::move(findings));
   const std::vector<S> lambda = asked_parameters<S>(level.map, policy);
-  const Cuts<S> cuts = cuts_by_parameters(level, lambda);
+  const Cuts<S> cuts = cuts_by_parameters(level, lambda, progress);
+  progress.report(0.4);
   std::vector<Plane<S>> planes = level.planes;
   planes.insert(planes.end(), cuts.planes.begin(), cuts.planes.end());
-  std::vector<Point3<S>> points = new_points(level.map, planes);
-  StepFigures<S> figures{smallest_delta(level.map, lambda), smallest_gap(level.map, cuts.points, points)};
+  std::vector<Point3<S>> points = new_points(level.map, planes, progress);
+  progress.report(0.8);
+  StepFigures<S> figures{smallest_delta(level.map, lambda), smallest_gap(level.map, cuts.points, points, progress)};
+  progress.report(1);
   return {{level.map.refined(), std::move(planes), std::move(points)}, std::move(figures)};
 }
 

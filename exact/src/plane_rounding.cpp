@@ -2,6 +2,8 @@
 #include "hexact/exact/plane_body.hpp"
 
 #include "homogeneous.hpp"
+#include "hexact/kernel/progress.hpp"
+#include "rounded_number.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
@@ -16,6 +18,8 @@ namespace hexact {
 namespace {
 
 using Wide = __int128;
+using detail::Rounded;
+using detail::RoundedPoint;
 
 // ------------------------------------------------------------------------------- Cramer in machine words
 
@@ -74,12 +78,6 @@ std::optional<WordPoint> meet_in_words(const IntegerPlanes& planes, const std::a
 }
 
 // ------------------------------------------------------------------------------- the floating-point filter
-
-/// A double and an upper bound of its distance from the exact value.
-struct Rounded {
-  double value;
-  double error;
-};
 
 struct Sum {
   double high, low;
@@ -160,42 +158,36 @@ Point3<S> meet_in_field(const Plane<S>& p, const Plane<S>& q, const Plane<S>& r,
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-double upper(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
-
-Rounded round_exactly(const Rational& x) {
-  const double value = x.to_double();
-  if (!std::isfinite(value)) throw ResourceLimit("a coordinate is beyond the finite doubles");
-  return {value, upper(abs(x - Rational::from_double(value)).to_double())};
+/// The float32 of what is known by its nearest double; empty where that double does not tell.
+std::optional<Rounded> in_format(const Rounded& r, FloatFormat format) {
+  if (format == FloatFormat::binary64) return r;
+  const float f = static_cast<float>(r.value);
+  if (is_float_midpoint(r.value) || !std::isfinite(f)) return std::nullopt;
+  const double value = static_cast<double>(f), error = std::fabs(r.value - value) + r.error;
+  return Rounded{value, error == 0 ? 0 : detail::upper(error)};
 }
 
-Rounded round_exactly(const QuadraticField& x) {
-  const double value = x.to_double();
-  if (!std::isfinite(value)) throw ResourceLimit("a coordinate is beyond the finite doubles");
-  const QuadraticField d = x - QuadraticField(Rational::from_double(value));
-  return {value, upper(std::fabs(d.to_double()))};
+template <class S>
+RoundedPoint round_exactly(const Point3<S>& p, FloatFormat format) {
+  return {detail::round_exactly(p.x, format), detail::round_exactly(p.y, format), detail::round_exactly(p.z, format)};
 }
 
-using RoundedPoint = std::array<Rounded, 3>;
-
-RoundedPoint round_vertex(const PlaneBody& body, const std::optional<Placement>& place, std::size_t v) {
-  if (body.field == Field::sqrt5) {
-    const auto p = sqrt5_vertex(body, make_id<VertexId>(v));
-    return {round_exactly(p.x), round_exactly(p.y), round_exactly(p.z)};
-  }
+RoundedPoint round_vertex(const PlaneBody& body, const std::optional<Placement>& place, std::size_t v, FloatFormat format) {
+  if (body.field == Field::sqrt5) return round_exactly(sqrt5_vertex(body, make_id<VertexId>(v)), format);
   if (place) {
     if (const auto m = meet_in_words(body.planes, body.triples[v]); m && m->denominator != 0) {
       RoundedPoint out{};
       bool decided = true;
       for (std::size_t k = 0; k < 3 && decided; ++k) {
-        const auto r = round_in_doubles(m->numerator[k], m->denominator, place->factor, place->shift[k]);
+        auto r = round_in_doubles(m->numerator[k], m->denominator, place->factor, place->shift[k]);
+        if (r) r = in_format(*r, format);
         decided = r.has_value();
         if (decided) out[k] = *r;
       }
       if (decided) return out;
     }
   }
-  const auto p = rational_vertex(body, make_id<VertexId>(v));
-  return {round_exactly(p.x), round_exactly(p.y), round_exactly(p.z)};
+  return round_exactly(rational_vertex(body, make_id<VertexId>(v)), format);
 }
 
 }  // namespace
@@ -228,7 +220,9 @@ Point3<QuadraticField> sqrt5_vertex(const PlaneBody& body, VertexId v) {
   return {place(p.x, 0), place(p.y, 1), place(p.z, 2)};
 }
 
-RoundedVertices rounded_vertices(const PlaneBody& body) {
+RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format) { return rounded_vertices(body, format, {}); }
+
+RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format, const ProgressPart& progress) {
   RoundedVertices out;
   out.points.resize(body.vertex_count());
   const auto place = body.field == Field::rational ? placement_in_doubles(body) : std::nullopt;
@@ -237,19 +231,16 @@ RoundedVertices rounded_vertices(const PlaneBody& body) {
   const double largest = tbb::parallel_reduce(
       Range(0, body.vertex_count(), 1 << 10), 0.0,
       [&](const Range& range, double worst) {
+        progress.check();
         for (std::size_t v = range.begin(); v != range.end(); ++v) {
-          const RoundedPoint p = round_vertex(body, place, v);
+          const RoundedPoint p = round_vertex(body, place, v, format);
           out.points[v] = {p[0].value, p[1].value, p[2].value};
-          // Scaled by the largest error, so that squares neither under- nor overflow.
-          const double m = std::max({p[0].error, p[1].error, p[2].error});
-          if (m == 0) continue;
-          const double x = p[0].error / m, y = p[1].error / m, z = p[2].error / m;
-          worst = std::max(worst, m * std::sqrt(x * x + y * y + z * z));
+          worst = std::max(worst, detail::error_length(p));
         }
         return worst;
       },
       [](double a, double b) { return std::max(a, b); });
-  out.max_rounding = largest == 0 ? 0 : upper(largest * (1 + 0x1p-48));
+  out.max_rounding = detail::length_bound(largest);
   return out;
 }
 

@@ -36,20 +36,24 @@ ExactSqrt5 fitted(const PolygonSoup<QuadraticField>& soup) {
 }
 
 template <class S>
-PreparedMesh prepare_over(PolygonSoup<S> soup, const PrepareOptions& options) {
+PreparedMesh prepare_over(PolygonSoup<S> soup, const PrepareOptions& options, const ProgressPart& progress) {
   PreparedMesh result;
+  progress.check();
   if (options.merges_first()) {
     MergedSoup<S> merged = merge_coplanar(soup);
     soup = std::move(merged.soup);
     result.merged_facets = merged.merged_facets;
     result.dropped_vertices = merged.dropped_vertices;
   }
+  progress.report(0.2);
   if (options.fit_planes) {
     auto fit = fitted(soup);
     soup = std::move(fit.soup);
     result.max_displacement = fit.max_displacement;
   }
+  progress.report(0.5);
   if (options.hull) soup = convex_hull(soup.points);
+  progress.report(0.8);
   if (options.truncate) {
     TruncatedSoup<S> truncated = truncate_vertices(soup, *options.truncate);
     soup = std::move(truncated.soup);
@@ -58,6 +62,7 @@ PreparedMesh prepare_over(PolygonSoup<S> soup, const PrepareOptions& options) {
   if (options.dual) soup = dual_mesh(soup);
   if (options.corner_cut) soup = corner_cut_mesh(soup, *options.corner_cut);
   if (options.triangulate) soup = triangulate(soup);
+  progress.report(0.9);
   if (options.snap_bits) {
     SnappedBody snapped = snap_planes(soup, *options.snap_bits);
     result.max_displacement = sum_rounded_up(result.max_displacement, snapped.max_displacement);
@@ -71,8 +76,8 @@ PreparedMesh prepare_over(PolygonSoup<S> soup, const PrepareOptions& options) {
 
 }  // namespace
 
-PreparedMesh prepare(const ExactSoup& soup, const PrepareOptions& options) {
-  return std::visit([&](const auto& given) { return prepare_over(given, options); }, soup);
+PreparedMesh prepare(const ExactSoup& soup, const PrepareOptions& options, const ProgressPart& progress) {
+  return std::visit([&](const auto& given) { return prepare_over(given, options, progress); }, soup);
 }
 
 }  // namespace hexact

@@ -86,10 +86,11 @@ Format detect(std::string_view bytes, const std::string& path) {
 }  // namespace
 
 std::optional<Format> format_from_name(std::string_view name) {
-  constexpr std::array<std::pair<std::string_view, Format>, 9> kNames = {{{"obj", Format::obj},
+  constexpr std::array<std::pair<std::string_view, Format>, 10> kNames = {{{"obj", Format::obj},
                                                                           {"off", Format::off},
                                                                           {"ply", Format::ply},
                                                                           {"ply-ascii", Format::ply_ascii},
+                                                                          {"ply-float", Format::ply_float},
                                                                           {"stl", Format::stl},
                                                                           {"stl-ascii", Format::stl_ascii},
                                                                           {"planes", Format::planes},
@@ -110,13 +111,18 @@ std::optional<Format> format_from_path(std::string_view path) {
   return format_from_name(ending);
 }
 
+FloatFormat coordinate_format(Format format) noexcept {
+  return format == Format::stl || format == Format::ply_float ? FloatFormat::binary32 : FloatFormat::binary64;
+}
+
 Geometry parse_geometry(std::string_view bytes, Format format, const std::string& name) {
   if (bytes.empty()) throw ParseError("the file is empty", name, 1);
   switch (format) {
     case Format::obj: return parse_obj(bytes, name);
     case Format::off: return parse_off(bytes, name);
     case Format::ply:
-    case Format::ply_ascii: return parse_ply(bytes, name);
+    case Format::ply_ascii:
+    case Format::ply_float: return parse_ply(bytes, name);
     case Format::stl:
     case Format::stl_ascii: return parse_stl(bytes, name);
     case Format::planes: return parse_planes(bytes, name);

@@ -14,10 +14,14 @@ namespace hexact::io {
 [[nodiscard]] std::string obj_text(const MeshView& mesh, const MeshWriteOptions& options);
 [[nodiscard]] std::string off_text(const MeshView& mesh, const MeshWriteOptions& options);
 [[nodiscard]] std::string ply_text(const MeshView& mesh, const MeshWriteOptions& options);
+[[nodiscard]] std::string ply_float_text(const MeshView& mesh, const MeshWriteOptions& options);
 [[nodiscard]] std::string ply_ascii_text(const MeshView& mesh, const MeshWriteOptions& options);
 [[nodiscard]] std::string stl_text(const MeshView& mesh);
 [[nodiscard]] std::string stl_ascii_text(const MeshView& mesh);
 [[nodiscard]] std::string scad_text(const MeshView& mesh, const MeshWriteOptions& options);
+
+/// The nearest float32. Throws InvalidInput (NotRepresentable) naming the element where there is none.
+[[nodiscard]] float narrowed(double value, const char* element, std::size_t number);
 
 using Colour = std::array<std::uint8_t, 3>;
 /// One colour for each facet by its level or by the largest angle to a neighbour, blue 0 to red at the maximum; empty

@@ -215,9 +215,18 @@ void check_elements(const PlyHeader& header, const std::string& name) {
   }
 }
 
+/// binary32 where every coordinate is a float.
+FloatFormat coordinate_format(const PlyElement& vertex) {
+  const auto wider = [](const PlyProperty& p) {
+    return (p.name == "x" || p.name == "y" || p.name == "z") && p.type != PlyType::float32;
+  };
+  return std::any_of(vertex.properties.begin(), vertex.properties.end(), wider) ? FloatFormat::binary64 : FloatFormat::binary32;
+}
+
 template <class Source>
 PolygonSoup<Rational> read_elements(Source source, const PlyHeader& header) {
   PolygonSoup<Rational> soup;
+  soup.storage.coordinates = coordinate_format(*find_element(header, "vertex"));
   const std::size_t vertices = find_element(header, "vertex")->count;
   for (const PlyElement& element : header.elements) {
     const bool addressed = has_scalar(element, "level") && has_scalar(element, "parent");

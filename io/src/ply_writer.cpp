@@ -20,13 +20,14 @@ std::size_t largest_facet(const MeshView& mesh) {
   return largest;
 }
 
-std::string header(const MeshView& mesh, const MeshWriteOptions& options, const char* encoding) {
+std::string header(const MeshView& mesh, const MeshWriteOptions& options, const char* encoding, const std::string& number) {
   std::size_t facets = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) facets += mesh.facets[f].empty() ? 0 : 1;
   std::string text = std::string("ply\nformat ") + encoding + " 1.0\n";
   if (!options.unit.empty()) text += "comment unit " + options.unit + "\n";
   text += "element vertex " + std::to_string(mesh.points.size()) +
-          "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(facets) +
+          "\nproperty " + number + " x\nproperty " + number + " y\nproperty " + number + " z\nelement face " +
+          std::to_string(facets) +
           "\nproperty list " + (largest_facet(mesh) < 256 ? "uchar" : "uint") + " int vertex_indices\n";
   if (!mesh.addresses.empty()) text += "property int level\nproperty int parent\n";
   if (!options.color.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
@@ -37,14 +38,7 @@ std::int32_t parent_number(const FacetAddress& address) {
   return address.parent ? static_cast<std::int32_t>(*address.parent) : -1;
 }
 
-}  // namespace
-
-std::string ply_text(const MeshView& mesh, const MeshWriteOptions& options) {
-  const std::vector<Colour> colours = facet_colours(mesh, options.color);
-  std::string text = header(mesh, options, "binary_little_endian");
-  for (const auto& p : mesh.points) {
-    for (const double value : {p.x, p.y, p.z}) append_bytes(text, std::bit_cast<std::uint64_t>(value));
-  }
+void append_binary_facets(std::string& text, const MeshView& mesh, const std::vector<Colour>& colours) {
   const bool small = largest_facet(mesh) < 256;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     const auto loop = mesh.facets[f];
@@ -63,12 +57,32 @@ std::string ply_text(const MeshView& mesh, const MeshWriteOptions& options) {
       for (const std::uint8_t channel : colours[f]) append_bytes(text, channel);
     }
   }
+}
+
+}  // namespace
+
+std::string ply_text(const MeshView& mesh, const MeshWriteOptions& options) {
+  std::string text = header(mesh, options, "binary_little_endian", "double");
+  for (const auto& p : mesh.points) {
+    for (const double value : {p.x, p.y, p.z}) append_bytes(text, std::bit_cast<std::uint64_t>(value));
+  }
+  append_binary_facets(text, mesh, facet_colours(mesh, options.color));
+  return text;
+}
+
+std::string ply_float_text(const MeshView& mesh, const MeshWriteOptions& options) {
+  std::string text = header(mesh, options, "binary_little_endian", "float");
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    const auto& p = mesh.points[v];
+    for (const double value : {p.x, p.y, p.z}) append_bytes(text, std::bit_cast<std::uint32_t>(narrowed(value, "vertex", v)));
+  }
+  append_binary_facets(text, mesh, facet_colours(mesh, options.color));
   return text;
 }
 
 std::string ply_ascii_text(const MeshView& mesh, const MeshWriteOptions& options) {
   const std::vector<Colour> colours = facet_colours(mesh, options.color);
-  std::string text = header(mesh, options, "ascii");
+  std::string text = header(mesh, options, "ascii", "double");
   for (const auto& p : mesh.points) {
     append_double(text, p.x).push_back(' ');
     append_double(text, p.y).push_back(' ');

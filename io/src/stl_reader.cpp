@@ -61,6 +61,7 @@ class AsciiStl {
       : scanner_(bytes, name, LineScanner::Comments::whole_lines) {}
 
   PolygonSoup<Rational> read() {
+    soup_.storage.triangles_only = true;
     scanner_.expect_line("solid");
     while (true) {
       keyword("solid", {});  // the rest of the line is a name
@@ -121,6 +122,7 @@ class BinaryStl {
   BinaryStl(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name) {}
 
   PolygonSoup<Rational> read() {
+    soup_.storage = {FloatFormat::binary32, true};
     const std::uint64_t triangles = little_endian32(bytes_.data() + kHeaderBytes - 4);
     soup_.facets.reserve(triangles, 3 * triangles);
     for (std::size_t t = 0; t < triangles; ++t) {

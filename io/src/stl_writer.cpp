@@ -34,11 +34,7 @@ Point3<double> normal(const Triangle& t) {
 }
 
 void append_float(std::string& text, double value, std::size_t facet) {
-  const auto rounded = static_cast<float>(value);  // to nearest, ties to even
-  if (!std::isfinite(rounded)) {
-    throw InvalidInput("NotRepresentable", "a coordinate is beyond the range of a float", "facet " + std::to_string(facet));
-  }
-  const auto bits = std::bit_cast<std::uint32_t>(rounded);
+  const auto bits = std::bit_cast<std::uint32_t>(narrowed(value, "facet", facet));
   for (int i = 0; i < 4; ++i) text.push_back(static_cast<char>(bits >> (8 * i) & 0xff));
 }
 

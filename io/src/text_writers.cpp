@@ -94,6 +94,15 @@ std::string scad_text(const MeshView& mesh, const MeshWriteOptions& options) {
   return text += "  ],\n  convexity = 10\n);\n";
 }
 
+float narrowed(double value, const char* element, std::size_t number) {
+  const auto rounded = static_cast<float>(value);  // to nearest, ties to even
+  if (!std::isfinite(rounded)) {
+    throw InvalidInput("NotRepresentable", "a coordinate is beyond the range of a float",
+                       element + (" " + std::to_string(number)));
+  }
+  return rounded;
+}
+
 std::string mesh_text(Format format, const MeshView& mesh, const MeshWriteOptions& options) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto& p = mesh.points[v];
@@ -106,6 +115,7 @@ std::string mesh_text(Format format, const MeshView& mesh, const MeshWriteOption
     case Format::off: return off_text(mesh, options);
     case Format::ply: return ply_text(mesh, options);
     case Format::ply_ascii: return ply_ascii_text(mesh, options);
+    case Format::ply_float: return ply_float_text(mesh, options);
     case Format::stl: return stl_text(mesh);
     case Format::stl_ascii: return stl_ascii_text(mesh);
     case Format::scad: return scad_text(mesh, options);

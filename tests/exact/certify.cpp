@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "chamfer_samples.hpp"
 #include "hexact/exact/certify.hpp"
+#include "hexact/exact/mesh_difference.hpp"
 #include "hexact/exact/honeycomb.hpp"
 #include "solid_samples.hpp"
 

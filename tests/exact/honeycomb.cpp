@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -15,22 +17,9 @@ namespace {
 
 using test::number;
 
-CutPolicy constant(const char* beta) { return SizePolicy{{number(beta)}}; }
-
-/// The policies that the golden file names in words.
-CutPolicy golden_policy(const std::string& name) {
-  if (name == "static") return static_policy_sqrt5();
-  if (name == "static_rational") return static_policy_rational();
-  if (name == "uniform 1/4") return constant("1/4");
-  if (name == "beta4=2/5, beta6=1/10") {
-    return SizePolicy{{number("0"), number("0"), number("0"), number("2/5"), number("2/5"), number("2/5"), number("1/10")}};
-  }
-  REQUIRE(name == "lambda(a->b) = (1+(3a+5b) mod 7)/16 at level 0");
-  return HalfEdgePolicy([](const HoneycombMap& map, HalfEdgeId h) {
-    const auto i = static_cast<std::uint32_t>(h);
-    return QuadraticField(Rational(Integer(1 + static_cast<int>((3 * map.origin(i) + 5 * map.target(i)) % 7)), Integer(16)));
-  });
-}
+using test::constant;
+using test::golden_policy;
+using test::needs_root;
 
 template <class S>
 void check_number(const S& x, const nlohmann::json& expected) {
@@ -57,6 +46,45 @@ void check_level(const HoneycombLevel<S>& level, const nlohmann::json& expected)
   }
 }
 
+/// Area and the extreme products of unit normals across an edge, in double from exact points and planes.
+template <class S>
+void check_measures(const HoneycombLevel<S>& level, const nlohmann::json& expected) {
+  const HoneycombMap& map = level.map;
+  double area = 0, least = 1, most = -1;
+  std::vector<std::array<double, 3>> normals;
+  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
+    const Plane<S>& plane = level.planes[f];
+    S largest(0);
+    for (const S& x : {plane.a, plane.b, plane.c}) {
+      if (largest < (x.sign() < 0 ? -x : x)) largest = x.sign() < 0 ? -x : x;
+    }
+    const double a = S(plane.a / largest).to_double(), b = S(plane.b / largest).to_double(), c = S(plane.c / largest).to_double();
+    const double length = std::sqrt(a * a + b * b + c * c);
+    normals.push_back({a / length, b / length, c / length});
+    const std::uint32_t start = map.facet_start(f);
+    const auto at = [&](std::uint32_t h) {
+      const auto &p = level.points[map.origin(h)], &o = level.points[map.origin(start)];
+      return std::array<double, 3>{S(p.x - o.x).to_double(), S(p.y - o.y).to_double(), S(p.z - o.z).to_double()};
+    };
+    for (std::uint32_t h = start + 1; h + 1 < start + map.facet_size(f); ++h) {
+      const auto p = at(h), q = at(h + 1);
+      const auto& n = normals.back();
+      area += (n[0] * (p[1] * q[2] - p[2] * q[1]) + n[1] * (p[2] * q[0] - p[0] * q[2]) + n[2] * (p[0] * q[1] - p[1] * q[0])) / 2;
+    }
+  }
+  for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
+    const auto &m = normals[map.facet(h)], &n = normals[map.facet(map.twin(h))];
+    const double product = m[0] * n[0] + m[1] * n[1] + m[2] * n[2];
+    least = std::min(least, product);
+    most = std::max(most, product);
+  }
+  CHECK(area == Approx(expected.at("area").get<double>()).epsilon(1e-12));
+  CHECK(least == Approx(expected.at("normal_dot_min").get<double>()).margin(1e-12));
+  CHECK(most == Approx(expected.at("normal_dot_max").get<double>()).margin(1e-12));
+  CHECK(expected.at("dihedral_cos_min").get<double>() == Approx(-most).margin(1e-12));
+  CHECK(expected.at("dihedral_cos_max").get<double>() == Approx(-least).margin(1e-12));
+}
+
 template <class S>
 void check_case(const nlohmann::json& closed, const PlaneBody& body) {
   const CutPolicy policy = golden_policy(closed.at("parameters"));
@@ -72,13 +100,8 @@ void check_case(const nlohmann::json& closed, const PlaneBody& body) {
       }
     }
     check_level(level, expected);
+    check_measures(level, expected);
   }
-}
-
-/// Does the case need √5 in its coordinates or in its parameters?
-bool needs_root(const nlohmann::json& closed, const PlaneBody& body) {
-  return body.field == Field::sqrt5 ||
-         (closed.at("parameters") == "static" && closed.at("levels")[0].at("face_sizes").contains("5"));
 }
 
 TEST_CASE("closed golden cases agree in Q and in Q(sqrt5)", "[honeycomb][golden]") {
@@ -110,6 +133,27 @@ TEST_CASE("points of golden levels given in full", "[honeycomb][golden]") {
       CHECK(step.level.points[v].x.str() == expected[v][0].get<std::string>());
       CHECK(step.level.points[v].y.str() == expected[v][1].get<std::string>());
       CHECK(step.level.points[v].z.str() == expected[v][2].get<std::string>());
+    }
+  }
+  CHECK(seen == 1);
+}
+
+TEST_CASE("the level-1 tetrahedron, vertex by vertex and facet by facet", "[honeycomb][golden]") {
+  const nlohmann::json data = test::golden();
+  std::size_t seen = 0;
+  for (const auto& closed : data.at("closed")) {
+    if (!closed.contains("complete_level1")) continue;
+    ++seen;
+    const auto level = honeycomb_step(honeycomb_start<Rational>(test::body_of(test::tetrahedron())), golden_policy(closed.at("parameters"))).level;
+    const test::Solid expected = test::solid(closed.at("complete_level1"));
+    REQUIRE(level.points.size() == expected.points.size());
+    for (std::size_t v = 0; v < expected.points.size(); ++v) {
+      CHECK(Point3<QuadraticField>{level.points[v].x, level.points[v].y, level.points[v].z} == expected.points[v]);
+    }
+    const FacetLoops loops = level.map.loops();
+    REQUIRE(loops.size() == expected.loops.size());
+    for (std::size_t f = 0; f < loops.size(); ++f) {
+      CHECK(std::equal(loops[f].begin(), loops[f].end(), expected.loops[f].begin(), expected.loops[f].end()));
     }
   }
   CHECK(seen == 1);
@@ -244,21 +288,69 @@ TEST_CASE("the gap of a triangle is the closed form (d.1)", "[honeycomb]") {
   CHECK(step.figures.min_gap == *least);
 }
 
-TEST_CASE("regular polygons shrink by (17): a3 = 3β − 1, σ4 = 2β²", "[honeycomb]") {
-  const auto squared_edge = [](const HoneycombLevel<Rational>& l, std::uint32_t f) {
-    const std::uint32_t h = l.map.facet_start(f);
-    const auto &p = l.points[l.map.origin(h)], &q = l.points[l.map.target(h)];
-    const Rational x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
-    return x * x + y * y + z * z;
-  };
-  for (const char* text : {"2/5", "9/20", "11/30"}) {
-    const Rational beta = number(text).rational_part();
-    const auto t = honeycomb_start<Rational>(test::body_of(test::tetrahedron()));
-    const Rational a3 = Rational(3) * beta - Rational(1);
-    CHECK(squared_edge(honeycomb_step(t, constant(text)).level, 0) == a3 * a3 * squared_edge(t, 0));
-    const auto c = honeycomb_start<Rational>(test::body_of(test::cube()));
-    CHECK(squared_edge(honeycomb_step(c, constant(text)).level, 0) == Rational(2) * beta * beta * squared_edge(c, 0));
+/// One of the regular n-gons of a solid, and (2cos(π/n))², by which (17) and (19) are rational expressions.
+struct RegularPolygon {
+  std::size_t n;
+  HoneycombLevel<QuadraticField> level;
+  QuadraticField four_cos2;
+};
+
+std::vector<RegularPolygon> regular_polygons() {
+  const nlohmann::json data = test::golden();
+  const auto start = [](const test::Solid& s) { return honeycomb_start<QuadraticField>(test::body_of(s)); };
+  std::vector<RegularPolygon> out = {{3, start(test::tetrahedron()), number("1")}, {4, start(test::cube()), number("2")}};
+  for (const auto& closed : data.at("closed")) {
+    if (closed.at("name") == "dodecahedron") out.push_back({5, start(test::solid(closed.at("initial"))), number("3/2+1/2*sqrt5")});
   }
+  // The static step of the cube has regular hexagons.
+  out.push_back({6, honeycomb_step(start(test::cube()), static_policy_sqrt5()).level, number("3")});
+  return out;
+}
+
+TEST_CASE("regular polygons: scale (17), area (18) and u = v (19), exactly, for n = 3, 4, 5, 6", "[honeycomb]") {
+  const QuadraticField one(1), two(2), four(4);
+  const auto minus = [](const auto& p, const auto& q) { return Point3<QuadraticField>{p.x - q.x, p.y - q.y, p.z - q.z}; };
+  const auto dot = [](const auto& p, const auto& q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
+  const auto mix = [](const QuadraticField& x, const auto& p, const auto& q) {
+    const QuadraticField y = QuadraticField(1) - x;
+    return Point3<QuadraticField>{x * p.x + y * q.x, x * p.y + y * q.y, x * p.z + y * q.z};
+  };
+  std::set<std::size_t> seen;
+  for (const RegularPolygon& polygon : regular_polygons()) {
+    const HoneycombMap& map = polygon.level.map;
+    for (const char* text : {"2/5", "9/20", "11/30"}) {
+      CAPTURE(polygon.n, text);
+      const QuadraticField beta = number(text);
+      const auto next = honeycomb_step(polygon.level, constant(text)).level;
+      // (17) squared, with sin² = 1 − cos².
+      const QuadraticField cos2 = polygon.four_cos2 / four;
+      const QuadraticField numerator = one - two * (one - beta) * (one - cos2);
+      const QuadraticField scale2 = numerator * numerator / cos2;
+      const QuadraticField u = (one - two * beta) / (one - beta) / polygon.four_cos2;
+      for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
+        if (map.facet_size(f) != polygon.n) continue;
+        const std::uint32_t start = map.facet_start(f), n = map.facet_size(f);
+        QuadraticField before, after;  // sums of squared areas of corner triangles, which scale by σ² = a⁴
+        for (std::uint32_t j = 0; j < n; ++j) {
+          const auto corner = [&](std::uint32_t i) -> const auto& { return polygon.level.points[map.origin(start + (j + i) % n)]; };
+          const auto fresh = [&](std::uint32_t i) -> const auto& { return next.points[next.map.origin(next.map.facet_start(f) + (j + i) % n)]; };
+          const auto edge = minus(corner(1), corner(0)), shrunk = minus(fresh(1), fresh(0));
+          CHECK(dot(shrunk, shrunk) == scale2 * dot(edge, edge));
+          // (5): q_j on the cut segments of corners j and j + 1.
+          const auto near_before = mix(beta, corner(0), corner(n - 1)), near_after = mix(beta, corner(0), corner(1));
+          CHECK(mix(u, near_before, near_after) == next.points[start + j]);
+          const auto next_before = mix(beta, corner(1), corner(0)), next_after = mix(beta, corner(1), corner(2));
+          CHECK(mix(u, next_after, next_before) == next.points[start + j]);
+          const auto cross_norm = [&](const auto& p, const auto& q) { return dot(p, p) * dot(q, q) - dot(p, q) * dot(p, q); };
+          before += cross_norm(edge, minus(corner(2), corner(1)));
+          after += cross_norm(shrunk, minus(fresh(2), fresh(1)));
+        }
+        CHECK(after == scale2 * scale2 * before);
+        seen.insert(polygon.n);
+      }
+    }
+  }
+  CHECK(seen == std::set<std::size_t>{3, 4, 5, 6});
 }
 
 TEST_CASE("planes are kept, points lie on their planes, and bodies round-trip", "[honeycomb]") {

@@ -90,6 +90,29 @@ inline PlaneBody body_of(const Solid& s) {
   return body;
 }
 
+inline CutPolicy constant(const char* beta) { return SizePolicy{{number(beta)}}; }
+
+/// The policies that the golden file names in words.
+inline CutPolicy golden_policy(const std::string& name) {
+  if (name == "static") return static_policy_sqrt5();
+  if (name == "static_rational") return static_policy_rational();
+  if (name == "uniform 1/4") return constant("1/4");
+  if (name == "beta4=2/5, beta6=1/10") {
+    return SizePolicy{{number("0"), number("0"), number("0"), number("2/5"), number("2/5"), number("2/5"), number("1/10")}};
+  }
+  if (name != "lambda(a->b) = (1+(3a+5b) mod 7)/16 at level 0") throw std::runtime_error("unknown policy " + name);
+  return HalfEdgePolicy([](const HoneycombMap& map, HalfEdgeId h) {
+    const auto i = static_cast<std::uint32_t>(h);
+    return QuadraticField(Rational(Integer(1 + static_cast<int>((3 * map.origin(i) + 5 * map.target(i)) % 7)), Integer(16)));
+  });
+}
+
+/// Does the case need √5 in its coordinates or in its parameters?
+inline bool needs_root(const nlohmann::json& closed, const PlaneBody& body) {
+  return body.field == Field::sqrt5 ||
+         (closed.at("parameters") == "static" && closed.at("levels")[0].at("face_sizes").contains("5"));
+}
+
 constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
 constexpr std::uint64_t kSqrt5 = 659791110852991619;
 static_assert(static_cast<unsigned __int128>(kSqrt5) * kSqrt5 % kPrime == 5);

@@ -64,7 +64,8 @@ std::string beginning_of(const std::filesystem::path& file) {
 }
 
 /// Waits for our child; kills its group when the time is over.
-void await(pid_t child, double seconds_limit, std::chrono::steady_clock::time_point start, ChildResult& result) {
+void await(pid_t child, double seconds_limit, std::chrono::steady_clock::time_point start, const ProgressPart& progress,
+           ChildResult& result) {
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   auto pause = std::chrono::milliseconds(1);
   bool killed = false;
@@ -76,7 +77,7 @@ void await(pid_t child, double seconds_limit, std::chrono::steady_clock::time_po
       break;
     }
     if (done < 0 && errno != EINTR) break;
-    if (!killed && elapsed() > seconds_limit) {
+    if (!killed && (elapsed() > seconds_limit || progress.cancelled())) {
       killed = true;
       result.end = ChildResult::End::timed_out;
       if (kill(-child, SIGKILL) != 0) kill(child, SIGKILL);
@@ -102,7 +103,8 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
-ChildResult run_child(const std::vector<std::string>& arguments, const std::filesystem::path& folder, double seconds_limit) {
+ChildResult run_child(const std::vector<std::string>& arguments, const std::filesystem::path& folder, double seconds_limit,
+                      const ProgressPart& progress) {
   HEXACT_EXPECTS(!arguments.empty());
   ChildResult result;
   int ends[2];
@@ -123,7 +125,7 @@ ChildResult run_child(const std::vector<std::string>& arguments, const std::file
   if (child > 0) {
     setpgid(child, child);  // either of us may be first
     const int reason = start_failure(ends[0]);
-    await(child, seconds_limit, start, result);
+    await(child, seconds_limit, start, progress, result);
     if (reason != 0) {
       result.end = ChildResult::End::not_started;
       result.status = reason;
@@ -132,6 +134,7 @@ ChildResult run_child(const std::vector<std::string>& arguments, const std::file
     }
   }
   close(ends[0]);
+  progress.check();
   return result;
 }
 

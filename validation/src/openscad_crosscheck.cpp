@@ -81,7 +81,8 @@ RouteReport judge(const ScadModel& model, const ElementCounts& ours, const Child
   return report;
 }
 
-RouteReport run_route(const ScadModel& model, const ElementCounts& ours, Route route, const CrosscheckOptions& options) {
+RouteReport run_route(const ScadModel& model, const ElementCounts& ours, Route route, const CrosscheckOptions& options,
+                      const ProgressPart& progress) {
   RouteReport report;
   report.route = route;
   if (route != Route::hull && !model.representable()) {
@@ -92,7 +93,8 @@ RouteReport run_route(const ScadModel& model, const ElementCounts& ours, Route r
   const TemporaryFolder folder;
   const auto program = folder.path() / "solid.scad", mesh = folder.path() / "solid.off";
   std::ofstream(program, std::ios::binary) << scad_program(model, route);
-  const ChildResult child = run_child({options.openscad, "-o", mesh.string(), program.string()}, folder.path(), options.time_limit);
+  const ChildResult child = run_child({options.openscad, "-o", mesh.string(), program.string()}, folder.path(), options.time_limit,
+                                      progress);
   report.seconds = child.seconds;
   report.reason = failure_of(child, options);
   if (!report.reason.empty()) return report;
@@ -127,7 +129,7 @@ ElementCounts element_counts(const PlaneBody& body) {
   return counts;
 }
 
-CrosscheckReport crosscheck_openscad(const PlaneBody& body, const CrosscheckOptions& options) {
+CrosscheckReport crosscheck_openscad(const PlaneBody& body, const CrosscheckOptions& options, const ProgressPart& progress) {
   HEXACT_EXPECTS(!options.routes.empty());
   CrosscheckReport report;
   report.ours = element_counts(body);
@@ -142,7 +144,10 @@ CrosscheckReport crosscheck_openscad(const PlaneBody& body, const CrosscheckOpti
     return report;
   }
   const ScadModel model = scad_model(body);
-  for (const Route route : options.routes) report.routes.push_back(run_route(model, report.ours, route, options));
+  for (const Route route : options.routes) {
+    progress.report(static_cast<double>(report.routes.size()) / static_cast<double>(options.routes.size()));
+    report.routes.push_back(run_route(model, report.ours, route, options, progress));
+  }
   summarise(report);
   return report;
 }

@@ -3,6 +3,7 @@
 
 #include "hexact/exact/plane_body.hpp"
 #include "hexact/exact/verdict.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ namespace hexact {
 /// Throws InvalidInput (UnknownClaim, MissingBody) for a claim that does not exist or refers to no given body.
 /// Cost: linear, and for each such half-space the length of a walk over the body.
 [[nodiscard]] Certificate make_certificate(PlaneBody body, std::vector<Claim> claims,
-                                           std::vector<NamedBody> references, std::vector<std::string> provenance);
+                                           std::vector<NamedBody> references, std::vector<std::string> provenance,
+                                           const ProgressPart& progress = {});
 
 /// Decides every claim with exact integers, in the order of the certificate, from its evidence alone.
 ///
@@ -25,14 +27,10 @@ namespace hexact {
 /// inside, tangent, corner-cut-of: as in the documentation of certificates; corner-cut-of is phs (b.2) replayed.
 /// A claim whose proof is missing from the certificate is refuted, the missing part being the witness.
 /// Witnesses name the smallest element. Cost: O(H log H) and about 2 det3 and 3 det4 per facet; in parallel.
-[[nodiscard]] std::vector<ClaimVerdict> verify(const Certificate& certificate);
+[[nodiscard]] std::vector<ClaimVerdict> verify(const Certificate& certificate, const ProgressPart& progress = {});
 
 /// refuted if any claim is, else undecided if any is or there is none, else proved.
 [[nodiscard]] Verdict overall(const std::vector<ClaimVerdict>& verdicts) noexcept;
-
-/// What keeps the mesh from being the correct rounding of the body: the same loops, and every coordinate the
-/// double nearest to the exact one (ties to even). Empty when it is; otherwise facet or vertex with both numbers.
-[[nodiscard]] std::string mesh_difference(const PlaneBody& body, const PolygonSoup<Rational>& mesh);
 
 /// "convex" or "inside=base".
 [[nodiscard]] std::string claim_text(const Claim& claim);

@@ -4,6 +4,7 @@
 #include "hexact/exact/cut_policy.hpp"
 #include "hexact/exact/plane_body.hpp"
 #include "hexact/kernel/honeycomb_map.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <vector>
 
@@ -40,7 +41,8 @@ template <class S>
 /// Cost: linear in the size, times the cost of numbers that grow by a factor 2 to 5 per level.
 /// Source: Han, "planar hexagon corner cutting", Chinese Journal of Computers 47(7), 2024, eqs. (1)-(10).
 template <class S>
-[[nodiscard]] HoneycombStep<S> honeycomb_step(const HoneycombLevel<S>& level, const CutPolicy& policy);
+[[nodiscard]] HoneycombStep<S> honeycomb_step(const HoneycombLevel<S>& level, const CutPolicy& policy,
+                                              const ProgressPart& progress = {});
 
 /// The level as a body of planes and loops, every vertex with its three defining planes.
 template <class S>
@@ -48,8 +50,10 @@ template <class S>
 
 extern template HoneycombLevel<Rational> honeycomb_start(const PlaneBody&);
 extern template HoneycombLevel<QuadraticField> honeycomb_start(const PlaneBody&);
-extern template HoneycombStep<Rational> honeycomb_step(const HoneycombLevel<Rational>&, const CutPolicy&);
-extern template HoneycombStep<QuadraticField> honeycomb_step(const HoneycombLevel<QuadraticField>&, const CutPolicy&);
+extern template HoneycombStep<Rational> honeycomb_step(const HoneycombLevel<Rational>&, const CutPolicy&,
+                                                       const ProgressPart&);
+extern template HoneycombStep<QuadraticField> honeycomb_step(const HoneycombLevel<QuadraticField>&, const CutPolicy&,
+                                                             const ProgressPart&);
 extern template PlaneBody to_plane_body(const HoneycombLevel<Rational>&);
 extern template PlaneBody to_plane_body(const HoneycombLevel<QuadraticField>&);
 

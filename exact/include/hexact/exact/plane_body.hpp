@@ -17,6 +17,8 @@
 
 namespace hexact {
 
+class ProgressPart;
+
 /// The half-space a·x + b·y + c·z <= d; (a, b, c) points outward and need not have unit length.
 template <class S>
 struct Plane {
@@ -113,13 +115,15 @@ struct Certificate {
 [[nodiscard]] Point3<Rational> rational_vertex(const PlaneBody& body, VertexId v);
 [[nodiscard]] Point3<QuadraticField> sqrt5_vertex(const PlaneBody& body, VertexId v);
 
-/// Every vertex rounded to the nearest double (ties to even), in file coordinates.
+/// Every vertex rounded to the nearest double or float32 (ties to even), in file coordinates.
 struct RoundedVertices {
   std::vector<Point3<double>> points;
   double max_rounding = 0;  ///< upper bound, rounded up, of the Euclidean distance between exact and rounded
 };
+/// Throws ResourceLimit where a coordinate is beyond the finite numbers of the format, InvalidInput (DegenerateVertex).
 /// Cost: linear; about 10 µs for each vertex that a floating-point filter cannot decide. In parallel; the
 /// result does not depend on the number of threads.
-[[nodiscard]] RoundedVertices rounded_vertices(const PlaneBody& body);
+[[nodiscard]] RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format = FloatFormat::binary64);
+[[nodiscard]] RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format, const ProgressPart& progress);
 
 }  // namespace hexact

@@ -3,6 +3,7 @@
 
 #include "hexact/exact/plane_body.hpp"
 #include "hexact/kernel/polygon_soup.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -40,7 +41,8 @@ struct PreparedMesh {
   std::size_t truncated_vertices = 0;
 };
 
-/// Carries out the steps. Throws what the steps throw; each says what it requires.
-[[nodiscard]] PreparedMesh prepare(const ExactSoup& soup, const PrepareOptions& options);
+/// Carries out the steps; can be cancelled between them. Throws what the steps throw; each says what it requires.
+[[nodiscard]] PreparedMesh prepare(const ExactSoup& soup, const PrepareOptions& options,
+                                   const ProgressPart& progress = {});
 
 }  // namespace hexact

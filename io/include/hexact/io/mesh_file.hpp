@@ -12,10 +12,13 @@
 
 namespace hexact::io {
 
-enum class Format { obj, off, ply, ply_ascii, stl, stl_ascii, planes, certificate, scad };
+enum class Format { obj, off, ply, ply_ascii, ply_float, stl, stl_ascii, planes, certificate, scad };
 
-/// "obj", "off", "ply", "stl", "planes", "cert", "scad" and the variants "ply-ascii", "stl-ascii"; nullopt for other names.
+/// "obj", "off", "ply", "stl", "planes", "cert", "scad" and the variants "ply-ascii", "ply-float", "stl-ascii"; nullopt
+/// for other names.
 [[nodiscard]] std::optional<Format> format_from_name(std::string_view name);
+/// What coordinates are rounded to when a mesh is written: float32 in binary STL and `ply_float`, else double.
+[[nodiscard]] FloatFormat coordinate_format(Format format) noexcept;
 /// By the file name's ending (.obj .off .ply .stl .planes .cert .hxc .scad); nullopt when it tells nothing.
 [[nodiscard]] std::optional<Format> format_from_path(std::string_view path);
 
@@ -37,7 +40,8 @@ struct MeshWriteOptions {
   std::string unit;   ///< "", "mm", "m", "in": noted in a comment where the format has one
 };
 
-/// A mesh of doubles that is ready to be written.
+/// A mesh that is ready to be written, its points rounded to the format's numbers (see `coordinate_format`): whoever
+/// has exact points rounds them once, to nearest.
 struct MeshView {
   const std::vector<Point3<double>>& points;
   const FacetLoops& facets;
@@ -45,8 +49,8 @@ struct MeshView {
 };
 
 /// Writes a mesh whole or not at all (see output_file.hpp), "-" being standard output. Doubles are written so that
-/// they read back bit for bit. STL triangulates facets (fan from the first corner) and rounds to float32 where
-/// binary. Throws FileError; InvalidInput (NotRepresentable) where the format cannot hold the mesh.
+/// they read back bit for bit. STL triangulates facets (fan from the first corner). Points that are no float32 are rounded
+/// where the format holds float32. Throws FileError; InvalidInput (NotRepresentable) where the format cannot hold the mesh.
 void write_mesh(const std::string& path, Format format, const MeshView& mesh, const MeshWriteOptions& options = {});
 /// Writes `.planes` text, exactly.
 void write_planes(const std::string& path, const PlaneBody& body);

@@ -26,12 +26,22 @@ struct FacetAddress {
   friend bool operator==(const FacetAddress&, const FacetAddress&) = default;
 };
 
+/// The binary formats that coordinates are rounded to.
+enum class FloatFormat { binary64, binary32 };
+
+/// What a file can hold, so that one can ask whether it is the correct rounding of something exact.
+struct SoupStorage {
+  FloatFormat coordinates = FloatFormat::binary64;
+  bool triangles_only = false;  ///< polygons have to be cut into triangles, and vertices have no numbers
+};
+
 /// Polygons as they were read: nothing about their shape or connectivity is promised.
 template <class S>
 struct PolygonSoup {
   std::vector<Point3<S>> points;
   FacetLoops facets;
   std::vector<FacetAddress> addresses;  ///< empty, or one for each facet
+  SoupStorage storage;                  ///< of the file they were read from
 };
 
 }  // namespace hexact

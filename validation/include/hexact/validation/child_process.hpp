@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "hexact/kernel/progress.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,8 +33,9 @@ struct ChildResult {
 
 /// Runs a program without a shell, found by PATH unless its name has a slash, in `folder`, with no input. The child
 /// leads a process group of its own, which is killed whole when `seconds_limit` is over; it also dies with us and
-/// may write no file above 1 GiB. Never throws for what the child does. Cost: looks every few milliseconds.
+/// may write no file above 1 GiB. Never throws for what the child does; throws Cancelled, the child having ended, when
+/// `progress` is cancelled. Cost: looks every few milliseconds.
 [[nodiscard]] ChildResult run_child(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
-                                    double seconds_limit);
+                                    double seconds_limit, const ProgressPart& progress = {});
 
 }  // namespace hexact::validation

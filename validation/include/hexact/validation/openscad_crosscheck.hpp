@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hexact/exact/plane_body.hpp"
+#include "hexact/kernel/progress.hpp"
 #include "hexact/validation/openscad_output.hpp"
 #include "hexact/validation/scad_model.hpp"
 
@@ -52,7 +53,8 @@ struct CrosscheckOptions {
 /// facets and edges; volume and bounding box within the bound that follows. `differ` as soon as one route differs,
 /// `agree` when all agree; a missing, failing or hanging OpenSCAD is `not_checked`, never agreement.
 /// Precondition: a convex body. Throws InvalidInput as scad_model does; over Q(√5) the answer is not_checked.
-[[nodiscard]] CrosscheckReport crosscheck_openscad(const PlaneBody& body, const CrosscheckOptions& options = {});
+[[nodiscard]] CrosscheckReport crosscheck_openscad(const PlaneBody& body, const CrosscheckOptions& options = {},
+                                                   const ProgressPart& progress = {});
 
 /// Vertices, edges and facets of a body.
 [[nodiscard]] ElementCounts element_counts(const PlaneBody& body);
