@@ -15,9 +15,9 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/hexact-config-versi
 # With shared libraries a user links gmp alone (its header is public); static ones need all the rest.
 if(BUILD_SHARED_LIBS)
   set(HEXACT_PC_LIBS "-lgmp")
-  set(HEXACT_PC_PRIVATE "-lfmt -ltbb")
+  set(HEXACT_PC_PRIVATE "-lfmt -lmpfr -ltbb")
 else()
-  set(HEXACT_PC_LIBS "-lfmt -lgmp -ltbb -pthread")
+  set(HEXACT_PC_LIBS "-lfmt -lmpfr -lgmp -ltbb -pthread")
 endif()
 # Relative to the .pc file, so that `cmake --install --prefix` and a moved tree stay right.
 file(RELATIVE_PATH HEXACT_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
