@@ -3,36 +3,13 @@
 
 #include "hexact/kernel/errors.hpp"
 #include "polynomial.hpp"
+#include "sector_place.hpp"
 
 #include <algorithm>
 #include <map>
 
 namespace hexact {
 namespace {
-
-/// A vertex near the extraordinary element in the coordinates of sector 0, and where it is stored.
-struct Place {
-  int shift = 0, i = 0, j = 0;
-  friend auto operator<=>(const Place&, const Place&) = default;
-};
-
-Place dual_place(int i, int j) {
-  if (j < 0) return {-1, -j - 1, i};
-  if (i < 0) return {1, j, -i - 1};
-  return {0, i, j};
-}
-
-Place quad_place(int x, int y) {
-  if (y < 0) return {-1, -y, x};
-  if (x <= 0 && y > 0) return {1, y, -x};
-  return {0, x, y};
-}
-
-Place triangle_place(int x, int y) {
-  if (y < 0) return {-1, -y, x + y};
-  if (x <= 0 && y > 0) return {1, x + y, -x};
-  return {0, x, y};
-}
 
 /// A row of the matrix while it is made: single weights, and weights on all sectors alike.
 struct Row {
