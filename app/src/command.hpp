@@ -71,5 +71,6 @@ void add_certify(const Registry&);
 void add_check(const Registry&);
 void add_crosscheck(const Registry&);
 void add_bench(const Registry&);
+void add_spectrum(const Registry&);
 
 }  // namespace hexact::app

@@ -147,6 +147,7 @@ int run(int argc, char** argv) {
   add_check(registry);
   add_crosscheck(registry);
   add_bench(registry);
+  add_spectrum(registry);
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

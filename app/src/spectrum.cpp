@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hexact/exact/spectrum.hpp"
+
+#include "command.hpp"
+#include "hexact/kernel/errors.hpp"
+#include "spectrum_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+namespace hexact::app {
+namespace {
+
+struct SpectrumOptions {
+  std::string scheme = "midedge6", valence, certificate, picture;
+};
+
+constexpr int kDigits = 30;
+constexpr int kLargestValence = 1000;
+
+struct Range {
+  int first = 0, last = 0;
+};
+
+/// "K" or "A..B".
+Range valence_range(const std::string& text) {
+  const auto number = [&](std::string_view word) {
+    int n = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), n);
+    if (error != std::errc() || end != word.data() + word.size() || n < 3 || n > kLargestValence) {
+      throw UsageError(fmt::format("--valence takes K or A..B with numbers from 3 to {}, not {}", kLargestValence, text));
+    }
+    return n;
+  };
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos) return {number(text), number(text)};
+  const Range range{number(std::string_view(text).substr(0, dots)), number(std::string_view(text).substr(dots + 2))};
+  if (range.last < range.first) throw UsageError("--valence A..B needs A <= B, not " + text);
+  return range;
+}
+
+SpectrumScheme scheme_of(const std::string& name) {
+  for (const SpectrumScheme s : {SpectrumScheme::midedge, SpectrumScheme::midedge6, SpectrumScheme::loop,
+                                 SpectrumScheme::catmull_clark, SpectrumScheme::doo_sabin}) {
+    if (name == name_of(s)) return s;
+  }
+  throw UsageError("there is no spectrum of the scheme " + name);
+}
+
+nlohmann::ordered_json enclosure_json(const RationalInterval& interval) {
+  const DecimalEnclosure d = decimal_enclosure(interval, kDigits);
+  return nlohmann::ordered_json::array({d.lo, d.hi});
+}
+
+struct Listed {
+  int mode;
+  const Eigenvalue* value;
+};
+
+/// Every eigenvalue as often as it occurs in the whole matrix, in decreasing order.
+std::vector<Listed> listed(const SpectrumRow& row) {
+  std::vector<Listed> out;
+  for (const ModeSpectrum& m : row.modes) {
+    for (const Eigenvalue& e : m.isolated) {
+      for (int i = 0; i < e.multiplicity; ++i) {
+        out.push_back({e.mode, &e});
+        if (e.mode != 0 && 2 * e.mode != row.valence) out.push_back({row.valence - e.mode, &e});
+      }
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Listed& a, const Listed& b) { return a.value->enclosure.lo > b.value->enclosure.lo; });
+  return out;
+}
+
+nlohmann::ordered_json row_json(const SpectrumRow& row) {
+  nlohmann::ordered_json json, values = nlohmann::ordered_json::array(), modes = nlohmann::ordered_json::array();
+  for (const Listed& e : listed(row)) {
+    values.push_back(enclosure_json(e.value->enclosure));
+    modes.push_back(e.mode);
+  }
+  int remaining = 0;
+  for (const ModeSpectrum& m : row.modes) remaining += m.remaining;
+  json["k"] = row.valence;
+  json["eigenvalues"] = std::move(values);
+  json["modes"] = std::move(modes);
+  json["not_isolated"] = remaining;
+  json["lambda"] = row.subdominant ? enclosure_json(row.subdominant->enclosure) : nlohmann::ordered_json();
+  json["next"] = row.next ? enclosure_json(row.next->enclosure) : nlohmann::ordered_json();
+  json["next_mode"] = row.next ? nlohmann::ordered_json(row.next->mode) : nlohmann::ordered_json();
+  json["ordering"] = name_of(row.ordering);
+  json["ring"] = name_of(row.ring.verdict);
+  json["c1"] = name_of(row.c1);
+  json["level"] = row.ring.level;
+  json["jacobian"] = decimal_enclosure({row.ring.jacobian, row.ring.jacobian}, 6).lo;
+  json["half_plane"] = decimal_enclosure({row.ring.half_plane, row.ring.half_plane}, 6).lo;
+  if (row.ordering != Verdict::proved) json["witness"] = row.ordering_witness;
+  else if (row.ring.verdict != Verdict::proved) json["witness"] = row.ring.reason;
+  return json;
+}
+
+std::string rounded_text(const std::optional<Eigenvalue>& e) {
+  return e ? fmt::format("{:.15f}", e->enclosure.lo.to_double()) : "-";
+}
+
+std::string row_text(const SpectrumRow& row) {
+  std::string text = fmt::format("{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}", row.valence, rounded_text(row.subdominant),
+                                 rounded_text(row.next), row.next ? std::to_string(row.next->mode) : "-", name_of(row.ordering),
+                                 name_of(row.ring.verdict), name_of(row.c1));
+  if (row.ordering != Verdict::proved) text += "  " + row.ordering_witness;
+  else if (row.ring.verdict != Verdict::proved) text += "  " + row.ring.reason;
+  return text + "\n";
+}
+
+Outcome spectrum(const SpectrumOptions& options) {
+  const Range range = valence_range(options.valence);
+  const SpectrumScheme scheme = scheme_of(options.scheme);
+  if (!options.picture.empty() && range.first != range.last) throw UsageError("--picture shows one valence");
+  std::vector<SpectrumSubject> subjects;
+  for (int k = range.first; k <= range.last; ++k) subjects.push_back(scheme_subject(scheme, k));
+  const std::vector<SpectrumRow> rows = spectrum_rows(subjects);
+  Outcome outcome;
+  Verdict all = Verdict::proved;
+  nlohmann::ordered_json table = nlohmann::ordered_json::array();
+  outcome.text = fmt::format("{}\n{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}\n", options.scheme, "k", "lambda", "next", "mode", "ordering", "ring", "C1");
+  for (const SpectrumRow& row : rows) {
+    table.push_back(row_json(row));
+    outcome.text += row_text(row);
+    const Verdict v = overall(row);
+    if (v == Verdict::refuted || all == Verdict::proved) all = v;
+  }
+  outcome.report["scheme"] = options.scheme;
+  outcome.report["verdict"] = name_of(all);
+  outcome.report["rows"] = std::move(table);
+  if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
+  outcome.exit_code = all == Verdict::proved ? kDone : all == Verdict::refuted ? kClaimFails : kUndecided;
+  return outcome;
+}
+
+}  // namespace
+
+void add_spectrum(const Registry& registry) {
+  const auto options = std::make_shared<SpectrumOptions>();
+  CLI::App* command = registry.add("spectrum", "Eigenvalues and characteristic ring of a subdivision scheme, with the proof that it is C1");
+  command->add_option("--scheme", options->scheme, "midedge, midedge6, loop, catmull-clark or doo-sabin (default: midedge6)");
+  command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin")->required();
+  command->add_option("--picture", options->picture, "SVG drawing of the ring of the characteristic map, for one valence");
+  command->callback([&selected = registry.selected, options] { selected = [options] { return spectrum(*options); }; });
+}
+
+}  // namespace hexact::app
