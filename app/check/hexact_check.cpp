@@ -4,6 +4,7 @@
 #include "certificate_text.hpp"
 #include "corner_cut.hpp"
 #include "rounded_mesh.hpp"
+#include "spectrum.hpp"
 #include "surface.hpp"
 
 #include <algorithm>
@@ -135,6 +136,23 @@ std::string quoted(const std::string& s) {
   return out + "\"";
 }
 
+// A certificate of spectra: its claims in the form of `run` below.
+int run_spectrum(const std::string& path, bool json) {
+  std::string claims, lines, witness;
+  for (const auto& [name, fault] : spectrum_faults(read_spectrum(path))) {
+    const char* const verdict = fault.empty() ? "proved" : "refuted";
+    claims += (claims.empty() ? "" : ", ") + quoted(name) + ": " + quoted(verdict);
+    lines += name + ": " + verdict + (fault.empty() ? "" : ": " + fault) + "\n";
+    if (witness.empty() && !fault.empty()) witness = name + ": " + fault;
+  }
+  if (claims.empty()) throw Malformed(path, 0, "there are no rows");
+  const char* const verdict = witness.empty() ? "proved" : "refuted";
+  const std::string tail = witness.empty() ? "" : ", \"witness\": " + quoted(witness);
+  if (json) std::printf("{\"verdict\": %s, \"claims\": {%s}%s}\n", quoted(verdict).c_str(), claims.c_str(), tail.c_str());
+  else std::printf("%s%s\n", lines.c_str(), verdict);
+  return std::fflush(stdout) != 0 ? 3 : witness.empty() ? 0 : 1;
+}
+
 int run(const std::vector<std::string>& files, bool json) {
   const Certificate c = read_certificate(files[0]);
   std::optional<Mesh> mesh;
@@ -194,6 +212,7 @@ int main(int argc, char** argv) {
   }
   if (files.empty() || files.size() > 2) return std::fputs(check::kHelp, stderr), 2;
   try {
+    if (check::is_spectrum_file(files[0])) return files.size() == 1 ? check::run_spectrum(files[0], json) : 2;
     return check::run(files, json);
   } catch (const check::Malformed& e) {
     return check::report(e, json);

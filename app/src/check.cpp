@@ -3,6 +3,7 @@
 #include "command.hpp"
 #include "hexact/exact/mesh_difference.hpp"
 #include "hexact/io/mesh_file.hpp"
+#include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
 
 #include <memory>
@@ -16,6 +17,12 @@ struct CheckOptions {
 };
 
 Outcome check(const CheckOptions& options, const Common& common) {
+  if (io::is_spectrum_certificate_file(options.certificate)) {
+    if (!options.mesh.empty()) throw UsageError("a spectral certificate has no mesh to compare");
+    const SpectrumCertificate certificate = io::read_spectrum_certificate(options.certificate);
+    if (certificate.rows.empty()) throw InvalidInput("NoClaims", options.certificate + " has no rows", "");
+    return claim_outcome(verify(certificate));
+  }
   const io::Geometry geometry = io::read_geometry(options.certificate);
   const auto* certificate = std::get_if<Certificate>(&geometry);
   if (certificate == nullptr || certificate->claims.empty()) {

@@ -2,6 +2,9 @@
 #include "hexact/exact/spectrum.hpp"
 
 #include "command.hpp"
+#include "hexact/exact/spectrum_certificate.hpp"
+#include "hexact/io/output_file.hpp"
+#include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "spectrum_picture.hpp"
 
@@ -113,7 +116,8 @@ std::string row_text(const SpectrumRow& row) {
   return text + "\n";
 }
 
-Outcome spectrum(const SpectrumOptions& options) {
+Outcome spectrum(const SpectrumOptions& options, const Common& common) {
+  if (options.certificate == "-" && common.json) throw UsageError("--json and the certificate cannot both go to standard output");
   const Range range = valence_range(options.valence);
   const SpectrumScheme scheme = scheme_of(options.scheme);
   if (!options.picture.empty() && range.first != range.last) throw UsageError("--picture shows one valence");
@@ -134,6 +138,16 @@ Outcome spectrum(const SpectrumOptions& options) {
   outcome.report["verdict"] = name_of(all);
   outcome.report["rows"] = std::move(table);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
+  if (!options.certificate.empty()) {
+    const bool proved = all == Verdict::proved;
+    if (proved) {
+      const std::vector<std::string> provenance{"hexact " HEXACT_VERSION, "spectrum --scheme " + options.scheme + " --valence " + options.valence};
+      io::write_file(options.certificate, io::spectrum_certificate_text(make_spectrum_certificate(scheme, rows, provenance)));
+    }
+    outcome.report["certificate"] = proved ? nlohmann::ordered_json(options.certificate) : nlohmann::ordered_json();
+    if (options.certificate == "-") outcome.text.clear();
+    else outcome.text += proved ? "certificate: " + options.certificate + "\n" : "no certificate: not all rows are proved\n";
+  }
   outcome.exit_code = all == Verdict::proved ? kDone : all == Verdict::refuted ? kClaimFails : kUndecided;
   return outcome;
 }
@@ -145,8 +159,12 @@ void add_spectrum(const Registry& registry) {
   CLI::App* command = registry.add("spectrum", "Eigenvalues and characteristic ring of a subdivision scheme, with the proof that it is C1");
   command->add_option("--scheme", options->scheme, "midedge, midedge6, loop, catmull-clark or doo-sabin (default: midedge6)");
   command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin")->required();
+  command->add_option("--certificate", options->certificate, "Certificate to write when every row is proved; hexact-check verifies it");
   command->add_option("--picture", options->picture, "SVG drawing of the ring of the characteristic map, for one valence");
-  command->callback([&selected = registry.selected, options] { selected = [options] { return spectrum(*options); }; });
+  Common& common = registry.common;
+  command->callback([&selected = registry.selected, &common, options] {
+    selected = [&common, options] { return spectrum(*options, common); };
+  });
 }
 
 }  // namespace hexact::app

@@ -9,8 +9,6 @@
 namespace hexact {
 namespace {
 
-bool is_midedge(SpectrumScheme scheme) { return scheme == SpectrumScheme::midedge || scheme == SpectrumScheme::midedge6; }
-
 constexpr int kLastLevel = 7;
 
 /// Control points of a cell far from the extraordinary one must lie in one sector and its neighbours.
@@ -84,10 +82,14 @@ void add_lines(RingLines& lines, const RefinedNet& net, int level) {
 
 }  // namespace
 
+bool is_bspline_scheme(SpectrumScheme scheme) noexcept {
+  return scheme != SpectrumScheme::midedge && scheme != SpectrumScheme::midedge6;
+}
+
 RingProof prove_ring(SpectrumScheme scheme, const SubdivisionMatrix& matrix, const RationalInterval& eigenvalue, std::optional<int> level) {
   const auto net = characteristic_net(matrix, eigenvalue);
   if (!net) return {Verdict::undecided, 0, {}, {}, "the eigenvector of mode 1 is not certain to be unique"};
-  if (!is_midedge(scheme)) return prove_bernstein_ring(ring_pieces(scheme, *net));
+  if (is_bspline_scheme(scheme)) return prove_bernstein_ring(ring_pieces(scheme, *net));
   if (level && (*level < first_level(scheme) || *level > kLastLevel)) {
     return {Verdict::undecided, *level, {}, {}, "there is no proof at this level"};
   }
@@ -103,7 +105,7 @@ RingLines ring_lines(SpectrumScheme scheme, const SubdivisionMatrix& matrix, con
   RingLines lines;
   const auto net = characteristic_net(matrix, eigenvalue);
   if (!net) return lines;
-  if (is_midedge(scheme)) {
+  if (!is_bspline_scheme(scheme)) {
     constexpr int kLevel = 5;
     add_lines(lines, refined_net(scheme, matrix, *net, eigenvalue, kLevel), kLevel);
   } else {

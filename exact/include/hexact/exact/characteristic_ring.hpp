@@ -20,6 +20,9 @@ struct RingProof {
   std::string reason;    ///< when it is not proved
 };
 
+/// Whether the limit surface is made of B-spline pieces: doo-sabin, catmull-clark, loop.
+[[nodiscard]] bool is_bspline_scheme(SpectrumScheme scheme) noexcept;
+
 /// Proves that the characteristic map of mode 1 is regular and injective on its ring, hence everywhere but at 0.
 ///
 /// midedge, midedge6: after `level` double steps (none given: the first of a few that succeeds) both derivatives in a
