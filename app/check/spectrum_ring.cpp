@@ -102,7 +102,7 @@ class MidedgeRing {
       for (int j = -reach; j < cells + reach; ++j) {
         if (i < 0 && j < 0) continue;
         const ComplexBall b = at(i, j);
-        if (b.x.r >> (kFraction - 50) != 0 || b.y.r >> (kFraction - 50) != 0) return "the control points are not known well enough";
+        if ((b.x.r >> (kFraction - 50)) != 0 || (b.y.r >> (kFraction - 50)) != 0) return "the control points are not known well enough";
         p[{i, j}] = {rounded(b.x), rounded(b.y)};
       }
     }
