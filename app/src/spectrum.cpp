@@ -3,6 +3,8 @@
 
 #include "command.hpp"
 #include "hexact/exact/spectrum_certificate.hpp"
+#include "hexact/exact/spectrum_masks.hpp"
+#include "hexact/io/masks_file.hpp"
 #include "hexact/io/output_file.hpp"
 #include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
@@ -17,7 +19,7 @@ namespace hexact::app {
 namespace {
 
 struct SpectrumOptions {
-  std::string scheme = "midedge6", valence, certificate, picture;
+  std::string scheme, masks, valence, certificate, picture;
 };
 
 constexpr int kDigits = 30;
@@ -116,33 +118,60 @@ std::string row_text(const SpectrumRow& row) {
   return text + "\n";
 }
 
+/// What the table is about: a scheme of the program, or a document of masks.
+struct Request {
+  std::string name;
+  std::optional<SpectrumScheme> scheme;  ///< none for masks
+  std::vector<SpectrumSubject> subjects;
+};
+
+Request scheme_request(const SpectrumOptions& options) {
+  if (options.valence.empty()) throw UsageError("--valence is missing: K or A..B");
+  const Range range = valence_range(options.valence);
+  Request request{options.scheme.empty() ? "midedge6" : options.scheme, {}, {}};
+  request.scheme = scheme_of(request.name);
+  for (int k = range.first; k <= range.last; ++k) request.subjects.push_back(scheme_subject(*request.scheme, k));
+  return request;
+}
+
+Request masks_request(const SpectrumOptions& options) {
+  if (!options.scheme.empty()) throw UsageError("--masks names its own scheme");
+  if (!options.certificate.empty()) throw UsageError("there is no certificate of masks");
+  const Range range = options.valence.empty() ? Range{3, kLargestValence} : valence_range(options.valence);
+  const MasksDocument document = io::read_masks(options.masks);
+  Request request{document.name, {}, {}};
+  for (const ExtraordinaryMask& mask : document.masks) {
+    if (mask.valence >= range.first && mask.valence <= range.last) request.subjects.push_back(mask_subject(document, mask));
+  }
+  if (request.subjects.empty()) throw InvalidInput("NoMask", options.masks + " has no mask of these valences", "valence " + options.valence);
+  return request;
+}
+
 Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   if (options.certificate == "-" && common.json) throw UsageError("--json and the certificate cannot both go to standard output");
-  const Range range = valence_range(options.valence);
-  const SpectrumScheme scheme = scheme_of(options.scheme);
-  if (!options.picture.empty() && range.first != range.last) throw UsageError("--picture shows one valence");
-  std::vector<SpectrumSubject> subjects;
-  for (int k = range.first; k <= range.last; ++k) subjects.push_back(scheme_subject(scheme, k));
+  const Request request = options.masks.empty() ? scheme_request(options) : masks_request(options);
+  const std::vector<SpectrumSubject>& subjects = request.subjects;
+  if (!options.picture.empty() && subjects.size() != 1) throw UsageError("--picture shows one valence");
   const std::vector<SpectrumRow> rows = spectrum_rows(subjects);
   Outcome outcome;
   Verdict all = Verdict::proved;
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
-  outcome.text = fmt::format("{}\n{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}\n", options.scheme, "k", "lambda", "next", "mode", "ordering", "ring", "C1");
+  outcome.text = fmt::format("{}\n{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}\n", request.name, "k", "lambda", "next", "mode", "ordering", "ring", "C1");
   for (const SpectrumRow& row : rows) {
     table.push_back(row_json(row));
     outcome.text += row_text(row);
     const Verdict v = overall(row);
     if (v == Verdict::refuted || all == Verdict::proved) all = v;
   }
-  outcome.report["scheme"] = options.scheme;
+  outcome.report["scheme"] = request.name;
   outcome.report["verdict"] = name_of(all);
   outcome.report["rows"] = std::move(table);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
   if (!options.certificate.empty()) {
     const bool proved = all == Verdict::proved;
     if (proved) {
-      const std::vector<std::string> provenance{"hexact " HEXACT_VERSION, "spectrum --scheme " + options.scheme + " --valence " + options.valence};
-      io::write_file(options.certificate, io::spectrum_certificate_text(make_spectrum_certificate(scheme, rows, provenance)));
+      const std::vector<std::string> provenance{"hexact " HEXACT_VERSION, "spectrum --scheme " + request.name + " --valence " + options.valence};
+      io::write_file(options.certificate, io::spectrum_certificate_text(make_spectrum_certificate(*request.scheme, rows, provenance)));
     }
     outcome.report["certificate"] = proved ? nlohmann::ordered_json(options.certificate) : nlohmann::ordered_json();
     if (options.certificate == "-") outcome.text.clear();
@@ -158,7 +187,8 @@ void add_spectrum(const Registry& registry) {
   const auto options = std::make_shared<SpectrumOptions>();
   CLI::App* command = registry.add("spectrum", "Eigenvalues and characteristic ring of a subdivision scheme, with the proof that it is C1");
   command->add_option("--scheme", options->scheme, "midedge, midedge6, loop, catmull-clark or doo-sabin (default: midedge6)");
-  command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin")->required();
+  command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin");
+  command->add_option("--masks", options->masks, "JSON document of masks of your own, instead of a scheme");
   command->add_option("--certificate", options->certificate, "Certificate to write when every row is proved; hexact-check verifies it");
   command->add_option("--picture", options->picture, "SVG drawing of the ring of the characteristic map, for one valence");
   Common& common = registry.common;
