@@ -2,6 +2,7 @@
 #include "geometry_output.hpp"
 
 #include "hexact/exact/body_from_soup.hpp"
+#include "hexact/exact/rounded_attributes.hpp"
 #include "hexact/exact/rounding.hpp"
 
 #include <optional>
@@ -23,7 +24,8 @@ WrittenGeometry write_mesh_format(const OutputChoice& output, const PolygonSoup<
   refuse_certificate(output);
   const RoundedVertices vertices = rounded_points(soup.points, io::coordinate_format(output.format), progress);
   progress.report(0.5);
-  io::write_mesh(output.path, output.format, {vertices.points, soup.facets, soup.addresses}, output.mesh);
+  const MeshAttributes<double>& attributes = rounded_attributes(soup.attributes);
+  io::write_mesh(output.path, output.format, {vertices.points, soup.facets, soup.addresses, &attributes}, output.mesh);
   return {vertices.max_rounding == 0, vertices.max_rounding};
 }
 

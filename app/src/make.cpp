@@ -13,6 +13,7 @@ namespace hexact::app {
 namespace {
 
 constexpr std::uint64_t kLargestCount = 100000;
+constexpr std::size_t kLargestGrid = 1000000;
 
 struct MakeOptions {
   std::string name, output, to;
@@ -21,7 +22,8 @@ struct MakeOptions {
 
 std::string list_of_samples() {
   std::string text = "Samples:\n  prism N            over an N-gon inscribed in a circle, with rational corners\n"
-                     "  random N SEED      a generic solid with N facets, three at each vertex\n";
+                     "  random N SEED      a generic solid with N facets, three at each vertex\n"
+                     "  grid M N           M x N quadrilaterals that are not planar, with a boundary\n";
   for (const SampleName& s : sample_names()) text += fmt::format("  {:<24} {}\n", s.name, s.description);
   return text;
 }
@@ -56,6 +58,15 @@ ExactSoup sample(const MakeOptions& options, const Common& common) {
   if (options.name == "random") {
     expect(2, "random N SEED");
     return random_solid(count(options.parameters[0], "N", 4, common), number(options.parameters[1], "SEED"));
+  }
+  if (options.name == "grid") {
+    expect(2, "grid M N");
+    const std::size_t m = count(options.parameters[0], "M", 1, common), n = count(options.parameters[1], "N", 1, common);
+    if (m > kLargestGrid / n) throw ResourceLimit(fmt::format("a grid is limited to {} facets", kLargestGrid));
+    if (common.max_facets != 0 && m * n > common.max_facets) {
+      throw ResourceLimit(fmt::format("{} facets would pass --max-facets {}", m * n, common.max_facets));
+    }
+    return grid(m, n);
   }
   for (const SampleName& s : sample_names()) {
     if (s.name != options.name) continue;
@@ -93,7 +104,7 @@ void add_make(const Registry& registry) {
   auto options = std::make_shared<MakeOptions>();
   CLI::App* command = registry.add("make", "Writes an exact sample solid");
   command->add_option("NAME", options->name, "Which sample")->required();
-  command->add_option("PARAMETERS", options->parameters, "N for prism, N SEED for random");
+  command->add_option("PARAMETERS", options->parameters, "N for prism, N SEED for random, M N for grid");
   command->add_option("-o,--output", options->output, "File to write; - is standard output")->required();
   command->add_option("--to", options->to, "Format of the output where its name does not tell");
   command->footer(list_of_samples());

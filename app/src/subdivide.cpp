@@ -21,7 +21,7 @@ struct Scheme {
 };
 
 const std::map<std::string, Scheme>& schemes() {
-  static const Scheme midedge = {subdivide_midedge, {"double", "rational"}, {"--boundary"}};
+  static const Scheme midedge = {subdivide_midedge, {"double", "rational"}, {"--boundary", "--keep-size", "--limit", "--limit-points"}};
   static const std::map<std::string, Scheme> table = {
       {"phs", {subdivide_honeycomb, {"snapped", "rational", "qsqrt5", "double"},
                {"--parameters", "--bits", "--certificate", "--limit-points", "--stop-min-edge", "--stop-max-panel"}}},
@@ -89,13 +89,15 @@ void add_subdivide(const Registry& registry) {
       ->check(CLI::IsMember({"snapped", "rational", "qsqrt5", "double"}));
   command->add_option("--bits", options->bits, "Upper bound on the bits of a snapped plane's normal")->check(CLI::Range(22, 1 << 20));
   command->add_option("--certificate", options->certificate, "Write a certificate of the result");
-  command->add_option("--limit-points", options->limit_points, "JSON: a point near each facet's limit point, plane and bound");
+  command->add_option("--limit-points", options->limit_points, "JSON: the limit point of each facet (phs: a point near it), plane and bound");
   command->add_option("--stop-min-edge", options->stop_min_edge, "End before an edge gets shorter than this")->check(CLI::PositiveNumber);
   command->add_option("--stop-max-panel", options->stop_max_panel, "End when all facets are at most this wide")->check(CLI::PositiveNumber);
   command->add_option("--all-levels", options->all_levels, "Write every level; %d stands for the level");
   command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")->check(CLI::IsMember({"level", "angle"}));
   command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
       ->check(CLI::IsMember({"dual", "close", "drop"}));
+  command->add_flag("--keep-size", options->keep_size, "Midedge: scale every level so that it keeps the volume of the input");
+  command->add_flag("--limit", options->limit, "Midedge: write the vertices in their places on the limit surface (closed meshes)");
   command->callback([registry, options, command] {
     registry.selected = [options, command, &common = registry.common] {
       settle(*command, *options);

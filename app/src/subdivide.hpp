@@ -23,6 +23,8 @@ struct SubdivideOptions {
   std::string all_levels;
   std::string color;
   std::string boundary = "dual";
+  bool keep_size = false;
+  bool limit = false;
 };
 
 /// The format of an output by `--to`, else by the ending of its path. Throws UsageError.

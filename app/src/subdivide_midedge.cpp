@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "exact_output.hpp"
 #include "body_input.hpp"
+#include "exact_output.hpp"
 #include "hexact/exact/midedge.hpp"
 #include "hexact/kernel/midedge_counts.hpp"
 #include "hexact/kernel/midedge_statistics.hpp"
+#include "midedge_limit_output.hpp"
 #include "subdivide.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,9 @@ namespace hexact::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+/// Facets of the further levels that limits may need where --max-facets says nothing.
+constexpr std::size_t kMostLimitFacets = 4000000;
 
 /// How the command line asks to refine.
 struct MidedgePlan {
@@ -65,16 +69,15 @@ void check_bounds(const MidedgeMap& map, const MidedgePlan& plan, unsigned level
 }
 
 template <class S>
-std::vector<Point3<double>> rounded_points(const PointArray<S>& points) {
+std::vector<Point3<double>> in_doubles(const PointArray<S>& points) {
   std::vector<Point3<double>> result(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) result[v] = {to_double(points[v].x), to_double(points[v].y), to_double(points[v].z)};
   return result;
 }
 
 template <class S>
-nlohmann::ordered_json level_row(const MidedgeLevel<S>& level, double seconds) {
-  const MidedgeMap& map = level.map;
-  const std::vector<Point3<double>> points = rounded_points<S>(level.points);
+nlohmann::ordered_json level_row(const MidedgeMap& map, const PointArray<S>& exact, double seconds) {
+  const std::vector<Point3<double>> points = in_doubles<S>(exact);
   const HoneycombStatistics s = measure(map, points, newell_normals(map, points));
   nlohmann::ordered_json row;
   row["level"] = map.level();
@@ -94,15 +97,39 @@ nlohmann::ordered_json level_row(const MidedgeLevel<S>& level, double seconds) {
   return row;
 }
 
+/// A level with what it carries.
 template <class S>
-PolygonSoup<S> soup_of(const MidedgeLevel<S>& level, const std::vector<FacetAddress>& base) {
+struct CarryingLevel {
+  MidedgeLevel<S> mesh;
+  MeshAttributes<S> attributes;
+  std::optional<SizeKeeper<S>> keeper{};
+  PointArray<S> scaled{};  ///< where there is a keeper
+
+  /// The points as they are reported and written.
+  [[nodiscard]] const PointArray<S>& points() const { return keeper ? scaled : mesh.points; }
+  void advance(const MidedgePlan& plan) {
+    MidedgeLevel<S> next = plan.doubled ? midedge_double_step(mesh, plan.rule) : midedge_step(mesh, plan.rule, plan.boundary);
+    if (!attributes.empty()) attributes = refined_attributes(mesh.map, next.map, attributes, plan.rule);
+    if (keeper) {
+      keeper->step(mesh.map, next.map);
+      keeper->fit(next);
+      scaled = keeper->scaled(next);
+    }
+    mesh = std::move(next);
+  }
+};
+
+template <class S>
+PolygonSoup<S> soup_of(const CarryingLevel<S>& level, std::vector<Point3<S>> points, const std::vector<FacetAddress>& base) {
+  const MidedgeMap& map = level.mesh.map;
   PolygonSoup<S> soup;
-  soup.points.assign(level.points.begin(), level.points.end());
-  soup.facets = level.map.loops();
+  soup.points = std::move(points);
+  soup.facets = map.loops();
+  soup.attributes = level.attributes;
   std::uint32_t before = 0;  // levels that the input already counts
   for (const FacetAddress& address : base) before = std::max(before, address.level);
-  for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
-    soup.addresses.push_back(level.map.address(f));
+  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
+    soup.addresses.push_back(map.address(f));
     FacetAddress& address = soup.addresses.back();
     if (address.parent) {
       address.level += before;
@@ -114,10 +141,52 @@ PolygonSoup<S> soup_of(const MidedgeLevel<S>& level, const std::vector<FacetAddr
 }
 
 template <class S>
-WrittenGeometry write_level(const MidedgeLevel<S>& level, const std::vector<FacetAddress>& base, const std::string& path,
+WrittenGeometry write_level(const CarryingLevel<S>& level, const std::vector<FacetAddress>& base, const std::string& path,
                             const SubdivideOptions& options, const Common& common) {
   const OutputChoice output{path, output_format(path, options.to), {options.color, common.unit}};
-  return write_geometry(output, soup_of(level, base));
+  return write_geometry(output, soup_of<S>(level, {level.points().begin(), level.points().end()}, base));
+}
+
+Point3<Rational> exact_point(const Point3<Rational>& p) { return p; }
+Point3<Rational> exact_point(const Point3<double>& p) {
+  return {Rational::from_double(p.x), Rational::from_double(p.y), Rational::from_double(p.z)};
+}
+
+/// The level as it is shown, every number taken for what it is.
+template <class S>
+MidedgeLevel<Rational> exact_level(const CarryingLevel<S>& level) {
+  MidedgeLevel<Rational> exact{level.mesh.map, {}};
+  for (const Point3<S>& p : level.points()) exact.points.push_back(exact_point(p));
+  return exact;
+}
+
+/// Writes the level with its vertices moved to their limits, exactly and then rounded once.
+template <class S>
+WrittenGeometry write_limit_surface(const CarryingLevel<S>& level, const LimitPlan& plan, const std::vector<FacetAddress>& base,
+                                    const SubdivideOptions& options, const Common& common) {
+  const OutputChoice output{options.output, output_format(options.output, options.to), {options.color, common.unit}};
+  const std::vector<Point3<Rational>> limits = midedge_vertex_limits(exact_level(level), plan);
+  std::vector<Point3<S>> points;
+  const S* field = nullptr;
+  for (const auto& p : limits) points.push_back({in_field(p.x, field), in_field(p.y, field), in_field(p.z, field)});
+  return write_geometry(output, soup_of<S>(level, std::move(points), base));
+}
+
+template <class S, class Soup>
+CarryingLevel<S> level_of(const Soup& input, MidedgeMap map, const SubdivideOptions& options) {
+  const S* field = nullptr;
+  const auto convert = [&](const auto& p) { return Point3<S>{in_field(p.x, field), in_field(p.y, field), in_field(p.z, field)}; };
+  CarryingLevel<S> level{{std::move(map), {}}, {}};
+  for (const auto& p : input.points) level.mesh.points.push_back(convert(p));
+  const auto& given = input.attributes;
+  CornerValues<S> texture{{}, given.texture.of_corner};
+  for (const auto& p : given.texture.values) texture.values.push_back(convert(p));
+  level.attributes = {welded(texture), given.texture_size, given.groups, given.materials, given.material_libraries};
+  if (options.keep_size) {
+    level.keeper.emplace(level.mesh);
+    level.scaled = level.mesh.points;
+  }
+  return level;
 }
 
 std::string report_text(const nlohmann::ordered_json& report) {
@@ -135,40 +204,53 @@ std::string report_text(const nlohmann::ordered_json& report) {
   return text + fmt::format("written to {}\n", report["output"].get<std::string>());
 }
 
+template <class S>
+Outcome report_of(const CarryingLevel<S>& level, const nlohmann::ordered_json& rows, const SubdivideOptions& options) {
+  Outcome outcome;
+  auto& report = outcome.report;
+  report["scheme"] = options.scheme;
+  report["arithmetic"] = options.arithmetic;
+  report["boundary"] = level.mesh.map.closed() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.boundary);
+  report["levels"] = rows;
+  report["output"] = options.output;
+  report["certificate"] = nullptr;
+  if (level.keeper) report["size_factors"] = level.keeper->factors();
+  return outcome;
+}
+
 template <class S, class Soup>
 Outcome refine(const Soup& input, const SubdivideOptions& options, const Common& common) {
-  MidedgeLevel<S> level{MidedgeMap(input.facets, input.points.size()), {}};
-  const MidedgePlan plan = plan_of(options, level.map);
-  check_bounds<S>(level.map, plan, options.levels, common);
-  const S* field = nullptr;
-  for (const auto& p : input.points) level.points.push_back({in_field(p.x, field), in_field(p.y, field), in_field(p.z, field)});
+  MidedgeMap map(input.facets, input.points.size());
+  const MidedgePlan plan = plan_of(options, map);
+  check_bounds<S>(map, plan, options.levels, common);
+  CarryingLevel<S> level = level_of<S>(input, std::move(map), options);
 
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array({level_row(level, 0)});
-  const auto write_too = [&] {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  const auto show = [&](double seconds) {
+    rows.push_back(level_row<S>(level.mesh.map, level.points(), seconds));
     if (options.all_levels.empty()) return;
-    (void)write_level(level, input.addresses, level_path(options.all_levels, level.map.level()), options, common);
+    const std::string path = level_path(options.all_levels, level.mesh.map.level());
+    (void)write_level(level, input.addresses, path, options, common);
   };
-  write_too();
-  while (level.map.level() < options.levels) {
-    // Each level costs about four times the one before.
-    common.work.report(0.05 + 0.8 * std::pow(4.0, static_cast<double>(level.map.level()) - options.levels));
+  show(0);
+  while (level.mesh.map.level() < options.levels) {
+    // Each level costs about twice the one before.
+    common.work.report(0.05 + 0.8 * std::pow(2.0, static_cast<double>(level.mesh.map.level()) - options.levels));
     const auto begin = Clock::now();
-    level = plan.doubled ? midedge_double_step(level, plan.rule) : midedge_step(level, plan.rule, plan.boundary);
-    rows.push_back(level_row(level, std::chrono::duration<double>(Clock::now() - begin).count()));
-    write_too();
+    level.advance(plan);
+    show(std::chrono::duration<double>(Clock::now() - begin).count());
   }
-  if (level.map.pinched_vertex_count() > 0) {
+  if (level.mesh.map.pinched_vertex_count() > 0) {
     common.remark(fmt::format("subdivide: --boundary drop made {} pinched vertices: the result is no manifold",
-                              level.map.pinched_vertex_count()));
+                              level.mesh.map.pinched_vertex_count()));
   }
-  Outcome outcome;
-  outcome.report["scheme"] = options.scheme;
-  outcome.report["arithmetic"] = options.arithmetic;
-  outcome.report["boundary"] = level.map.closed() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.boundary);
-  outcome.report["levels"] = rows;
-  outcome.report["output"] = options.output;
-  outcome.report["certificate"] = nullptr;
-  outcome.report["max_rounding"] = write_level(level, input.addresses, options.output, options, common).max_rounding;
+  Outcome outcome = report_of(level, rows, options);
+  const LimitPlan limits{plan.rule, plan.boundary, common.max_facets > 0 ? common.max_facets : kMostLimitFacets};
+  if (!options.limit_points.empty()) write_midedge_limits(options, exact_level(level), limits);
+  const WrittenGeometry written =
+      options.limit ? write_limit_surface(level, limits, input.addresses, options, common)
+                    : write_level(level, input.addresses, options.output, options, common);
+  outcome.report["max_rounding"] = written.max_rounding;
   if (options.output != "-") outcome.text = report_text(outcome.report);
   return outcome;
 }

@@ -31,6 +31,8 @@ Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, 
 Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Point operator*(const Rational& w, const Point& a) { return {w * a.x, w * a.y, w * a.z}; }
 
+constexpr std::uint32_t kLargestTangent = 512;
+
 /// Walks from half-edge to half-edge through inner quadrilaterals.
 class Walk {
  public:
@@ -178,6 +180,11 @@ void MidedgeLimits::prepare(std::uint32_t k) {
   HEXACT_EXPECTS(k >= 3);
   if (tangents_.count(k) > 0) return;
   auto tangent = std::make_unique<Tangent>();
+  if (k > kLargestTangent) {
+    tangent->used = 0;
+    tangents_.emplace(k, std::move(tangent));
+    return;
+  }
   for (std::uint32_t s = 0; s < k; ++s) tangent->turns.push_back(detail::root_of_unity((k - s) % k, k));
   if (rule_ == MidedgeRule::simple) {
     tangent->used = 1;
@@ -222,7 +229,7 @@ std::optional<MidedgeLimit> MidedgeLimits::operator()(const MidedgeLevel<Rationa
     const bool inner = std::all_of(loop.begin(), loop.end(), [&, h = start](std::uint32_t) mutable {
       return level.map.twin(h++) != kNoTwin;
     });
-    if (k == 3 || !inner) return limit;
+    if (k == 3 || !inner || tangent.used == 0) return limit;
   } else {
     const std::vector<std::uint32_t> vertices = midedge_net(level.map, f);
     if (vertices.empty()) return std::nullopt;
@@ -236,6 +243,7 @@ std::optional<MidedgeLimit> MidedgeLimits::operator()(const MidedgeLevel<Rationa
     }
     limit.point = Rational(1) / Rational(243712L * static_cast<long>(k)) * limit.point;
   }
+  if (tangent.used == 0) return limit;
   for (std::size_t i = 0; i < net.size(); ++i) {
     if (i % kNet < tangent.used) net[i] = net[i] - limit.point;
   }

@@ -136,6 +136,47 @@ PolygonSoup<Rational> saddle() {
   return mesh(points, loops);
 }
 
+/// The surface of a union of unit cubes, named by their smallest corners in lexicographic order.
+PolygonSoup<Rational> voxels(const std::vector<std::array<int, 3>>& cubes) {
+  struct Side {
+    std::array<int, 3> towards;
+    std::array<std::array<int, 3>, 4> corners;
+  };
+  constexpr std::array<Side, 6> sides{{{{1, 0, 0}, {{{1, 0, 0}, {1, 1, 0}, {1, 1, 1}, {1, 0, 1}}}},
+                                       {{-1, 0, 0}, {{{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}}}},
+                                       {{0, 1, 0}, {{{0, 1, 0}, {0, 1, 1}, {1, 1, 1}, {1, 1, 0}}}},
+                                       {{0, -1, 0}, {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}},
+                                       {{0, 0, 1}, {{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}}},
+                                       {{0, 0, -1}, {{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}}}}};
+  const auto sum = [](const std::array<int, 3>& a, const std::array<int, 3>& b) {
+    return std::array<int, 3>{a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+  };
+  std::map<std::array<int, 3>, std::uint32_t> number;
+  std::vector<Point3<Rational>> points;
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (const auto& cube : cubes) {
+    for (const Side& side : sides) {
+      if (std::find(cubes.begin(), cubes.end(), sum(cube, side.towards)) != cubes.end()) continue;
+      loops.emplace_back();
+      for (const auto& corner : side.corners) {
+        const auto p = sum(cube, corner);
+        const auto [place, fresh] = number.insert({p, static_cast<std::uint32_t>(points.size())});
+        if (fresh) points.push_back({p[0], p[1], p[2]});
+        loops.back().push_back(place->second);
+      }
+    }
+  }
+  return mesh(points, loops);
+}
+
+PolygonSoup<Rational> seven_cubes() {
+  return voxels({{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}});
+}
+
+PolygonSoup<Rational> seven_cubes_corner() {
+  return voxels({{0, 0, 0}, {0, 0, 1}, {0, 1, 0}, {0, 1, 1}, {1, 0, 0}, {1, 0, 1}, {1, 1, 0}});
+}
+
 struct Sample {
   SampleName name;
   ExactSoup (*make)();
@@ -159,6 +200,10 @@ const std::vector<Sample>& samples() {
       {{"pyramid", "over a square"}, [] { return ExactSoup(pyramid()); }},
       {{"random12", "a stored generic solid with 12 facets"}, [] { return ExactSoup(stored(kRandom12)); }},
       {{"random29", "a stored generic solid with 29 facets"}, [] { return ExactSoup(stored(kRandom29)); }},
+      {{"seven-cubes", "a cube with one more on each side: 32 vertices, 30 squares, not convex"},
+       [] { return ExactSoup(seven_cubes()); }},
+      {{"seven-cubes-corner", "2 x 2 x 2 cubes without one: 26 vertices, 24 squares, not convex"},
+       [] { return ExactSoup(seven_cubes_corner()); }},
       {{"torus", "60 hexagons that are not planar"}, [] { return ExactSoup(torus()); }},
       {{"saddle", "27 hexagons that are not planar, with a boundary"}, [] { return ExactSoup(saddle()); }},
   };
@@ -278,6 +323,25 @@ PolygonSoup<Rational> prism(std::size_t n) {
     const std::size_t l = (k + 1) % n;
     for (const std::size_t v : {k, l, n + l, n + k}) add(v);
     soup.facets.close_loop();
+  }
+  return soup;
+}
+
+PolygonSoup<Rational> grid(std::size_t m, std::size_t n) {
+  HEXACT_EXPECTS(m >= 1 && n >= 1 && m * n <= 1000000);
+  PolygonSoup<Rational> soup;
+  for (std::size_t j = 0; j <= n; ++j) {
+    for (std::size_t i = 0; i <= m; ++i) {
+      const auto height = static_cast<long>((i * i + 2 * i * j + 3 * j) % 4);
+      soup.points.push_back({static_cast<long>(i), static_cast<long>(j), Rational(height) / Rational(2)});
+    }
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = 0; i < m; ++i) {
+      const std::size_t v = j * (m + 1) + i;
+      for (const std::size_t corner : {v, v + 1, v + m + 2, v + m + 1}) soup.facets.add_corner(make_id<VertexId>(corner));
+      soup.facets.close_loop();
+    }
   }
   return soup;
 }

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace hexact::io {
 namespace {
@@ -124,8 +125,13 @@ void skip(Source& source, const PlyProperty& property) {
   }
 }
 
+/// The names under which programs store texture coordinates of vertices.
+bool is_u(const PlyProperty& p) { return !p.list_count && (p.name == "s" || p.name == "u" || p.name == "texture_u"); }
+bool is_v(const PlyProperty& p) { return !p.list_count && (p.name == "t" || p.name == "v" || p.name == "texture_v"); }
+bool is_texture_list(const PlyProperty& p) { return p.list_count && p.name == "texcoord" && is_float(p.type); }
+
 template <class Source>
-Point3<Rational> read_vertex(Source& source, const PlyElement& element) {
+Point3<Rational> read_vertex(Source& source, const PlyElement& element, Point3<Rational>& texture) {
   Point3<Rational> point;
   for (const PlyProperty& property : element.properties) {
     if (property.name == "x") {
@@ -134,6 +140,10 @@ Point3<Rational> read_vertex(Source& source, const PlyElement& element) {
       point.y = source.number(property.type);
     } else if (property.name == "z") {
       point.z = source.number(property.type);
+    } else if (is_u(property)) {
+      texture.x = source.number(property.type);
+    } else if (is_v(property)) {
+      texture.y = source.number(property.type);
     } else {
       skip(source, property);
     }
@@ -160,13 +170,46 @@ void read_corners(Source& source, const PlyProperty& property, std::size_t verti
   loops.close_loop();
 }
 
+/// A list of u and v for each corner, or an empty one.
 template <class Source>
-FacetAddress read_facet(Source& source, const PlyElement& element, std::size_t vertices, FacetLoops& loops) {
+std::vector<Point3<Rational>> read_texture_list(Source& source, const PlyProperty& property) {
+  const std::size_t numbers = list_length(source, property);
+  if (numbers % 2 != 0) source.fail("a list texcoord of " + std::to_string(numbers) + " numbers, expected pairs");
+  std::vector<Point3<Rational>> values;  // grows as they are read: nothing promises that they are all there
+  for (std::size_t i = 0; i < numbers / 2; ++i) {
+    Point3<Rational> value;
+    value.x = source.number(property.type);
+    value.y = source.number(property.type);
+    values.push_back(std::move(value));
+  }
+  return values;
+}
+
+/// Gives the last facet of the soup the values; it may have none.
+template <class Source>
+void add_texture(Source& source, PolygonSoup<Rational>& soup, std::vector<Point3<Rational>> values) {
+  CornerValues<Rational>& texture = soup.attributes.texture;
+  const std::size_t corners = soup.facets[soup.facets.size() - 1].size();
+  if (!values.empty() && values.size() != corners) {
+    source.fail("texture coordinates for " + std::to_string(values.size()) + " corners, but there are " + std::to_string(corners));
+  }
+  for (std::size_t i = 0; i < corners; ++i) {
+    texture.of_corner.push_back(values.empty() ? kNothing : static_cast<std::uint32_t>(texture.values.size()));
+    if (!values.empty()) texture.values.push_back(std::move(values[i]));
+  }
+}
+
+template <class Source>
+FacetAddress read_facet(Source& source, const PlyElement& element, std::size_t vertices, PolygonSoup<Rational>& soup) {
+  FacetLoops& loops = soup.facets;
+  std::vector<Point3<Rational>> texture;
   FacetAddress address;
   for (const PlyProperty& property : element.properties) {
     const bool integer = !property.list_count && !is_float(property.type);
     if (is_corner_list(property)) {
       read_corners(source, property, vertices, loops);
+    } else if (is_texture_list(property)) {
+      texture = read_texture_list(source, property);
     } else if (integer && property.name == "level") {
       const std::int64_t level = source.integer(property.type);
       if (level < 0) source.fail("the level " + std::to_string(level) + " is negative");
@@ -179,6 +222,7 @@ FacetAddress read_facet(Source& source, const PlyElement& element, std::size_t v
       skip(source, property);
     }
   }
+  if (std::any_of(element.properties.begin(), element.properties.end(), is_texture_list)) add_texture(source, soup, std::move(texture));
   return address;
 }
 
@@ -223,21 +267,36 @@ FloatFormat coordinate_format(const PlyElement& vertex) {
   return std::any_of(vertex.properties.begin(), vertex.properties.end(), wider) ? FloatFormat::binary64 : FloatFormat::binary32;
 }
 
+/// Coordinates of corners win over those of vertices; a mesh without any has no lists.
+void finish_texture(PolygonSoup<Rational>& soup, std::vector<Point3<Rational>> vertex_texture) {
+  CornerValues<Rational>& texture = soup.attributes.texture;
+  if (texture.values.empty()) texture.of_corner.clear();
+  if (!texture.empty() || vertex_texture.empty()) return;
+  texture.values = std::move(vertex_texture);
+  for (const VertexId v : soup.facets.corners()) texture.of_corner.push_back(static_cast<std::uint32_t>(v));
+}
+
 template <class Source>
 PolygonSoup<Rational> read_elements(Source source, const PlyHeader& header) {
   PolygonSoup<Rational> soup;
-  soup.storage.coordinates = coordinate_format(*find_element(header, "vertex"));
-  const std::size_t vertices = find_element(header, "vertex")->count;
+  const PlyElement& vertex = *find_element(header, "vertex");
+  soup.storage.coordinates = coordinate_format(vertex);
+  const std::size_t vertices = vertex.count;
+  const bool textured_vertices = std::any_of(vertex.properties.begin(), vertex.properties.end(), is_u) &&
+                                 std::any_of(vertex.properties.begin(), vertex.properties.end(), is_v);
+  std::vector<Point3<Rational>> vertex_texture;
   for (const PlyElement& element : header.elements) {
     const bool addressed = has_scalar(element, "level") && has_scalar(element, "parent");
     if (element.properties.empty()) continue;
     for (std::size_t i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
         source.begin({"vertex", i});
-        soup.points.push_back(read_vertex(source, element));
+        Point3<Rational> texture;
+        soup.points.push_back(read_vertex(source, element, texture));
+        if (textured_vertices) vertex_texture.push_back(std::move(texture));
       } else if (element.name == "face") {
         source.begin({"facet", i});
-        const FacetAddress address = read_facet(source, element, vertices, soup.facets);
+        const FacetAddress address = read_facet(source, element, vertices, soup);
         if (addressed) soup.addresses.push_back(address);
       } else {
         source.begin({element.name.c_str(), i});
@@ -247,6 +306,7 @@ PolygonSoup<Rational> read_elements(Source source, const PlyHeader& header) {
     }
   }
   source.finish();
+  finish_texture(soup, std::move(vertex_texture));
   return soup;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <vector>
 
 namespace hexact::io {
 namespace {
@@ -20,6 +21,20 @@ std::size_t largest_facet(const MeshView& mesh) {
   return largest;
 }
 
+bool is_textured(const MeshView& mesh) { return mesh.attributes != nullptr && !mesh.attributes->texture.empty(); }
+
+/// u and v in the corners of facet f, one pair after another; none where the facet has no texture coordinates.
+std::vector<double> texture_of(const MeshView& mesh, std::size_t f) {
+  std::vector<double> pairs;
+  const CornerValues<double>& texture = mesh.attributes->texture;
+  for (std::size_t c = mesh.facets.start(f); c < mesh.facets.start(f) + mesh.facets[f].size(); ++c) {
+    if (texture.of_corner[c] == kNothing) return {};
+    const auto& value = texture.values[texture.of_corner[c]];
+    pairs.insert(pairs.end(), {value.x, value.y});
+  }
+  return pairs;
+}
+
 std::string header(const MeshView& mesh, const MeshWriteOptions& options, const char* encoding, const std::string& number) {
   std::size_t facets = 0;
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) facets += mesh.facets[f].empty() ? 0 : 1;
@@ -29,6 +44,7 @@ std::string header(const MeshView& mesh, const MeshWriteOptions& options, const 
           "\nproperty " + number + " x\nproperty " + number + " y\nproperty " + number + " z\nelement face " +
           std::to_string(facets) +
           "\nproperty list " + (largest_facet(mesh) < 256 ? "uchar" : "uint") + " int vertex_indices\n";
+  if (is_textured(mesh)) text += "property list uint double texcoord\n";
   if (!mesh.addresses.empty()) text += "property int level\nproperty int parent\n";
   if (!options.color.empty()) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   return text += "end_header\n";
@@ -49,6 +65,11 @@ void append_binary_facets(std::string& text, const MeshView& mesh, const std::ve
       append_bytes(text, static_cast<std::uint32_t>(loop.size()));
     }
     for (const VertexId v : loop) append_bytes(text, static_cast<std::uint32_t>(v));
+    if (is_textured(mesh)) {
+      const std::vector<double> pairs = texture_of(mesh, f);
+      append_bytes(text, static_cast<std::uint32_t>(pairs.size()));
+      for (const double x : pairs) append_bytes(text, std::bit_cast<std::uint64_t>(x));
+    }
     if (!mesh.addresses.empty()) {
       append_bytes(text, mesh.addresses[f].level);
       append_bytes(text, static_cast<std::uint32_t>(parent_number(mesh.addresses[f])));
@@ -93,6 +114,11 @@ std::string ply_ascii_text(const MeshView& mesh, const MeshWriteOptions& options
     if (loop.empty()) continue;
     append_integer(text, loop.size());
     for (const VertexId v : loop) append_integer(text += ' ', index(v));
+    if (is_textured(mesh)) {
+      const std::vector<double> pairs = texture_of(mesh, f);
+      append_integer(text += ' ', pairs.size());
+      for (const double x : pairs) append_double(text += ' ', x);
+    }
     if (!mesh.addresses.empty()) {
       append_integer(text += ' ', mesh.addresses[f].level);
       append_integer(text += ' ', parent_number(mesh.addresses[f]));

@@ -34,23 +34,77 @@ void append_17_digits(std::string& text, double value) {
 
 }  // namespace
 
+namespace {
+
+/// The names of facets as an OBJ file has them: statements that hold until the next one.
+class ObjNames {
+ public:
+  explicit ObjNames(const MeshView& mesh) : mesh_(mesh) {}
+
+  /// The statements that have to stand before facet f.
+  void append(std::string& text, std::size_t f) {
+    const FacetNames none, &groups = mesh_.attributes != nullptr ? mesh_.attributes->groups : none;
+    const FacetNames& materials = mesh_.attributes != nullptr ? mesh_.attributes->materials : none;
+    const std::string* material = name(materials, f);
+    if (material != material_) text += "usemtl " + (material != nullptr ? *material : std::string("default")) + "\n";
+    material_ = material;
+    const std::string* group = name(groups, f);
+    if (mesh_.addresses.empty() && group == group_) return;
+    group_ = group;
+    text += 'g';
+    if (group != nullptr) text += ' ' + *group;
+    if (!mesh_.addresses.empty()) append_address(text += ' ', mesh_.addresses[f]);
+    text.push_back('\n');
+  }
+
+ private:
+  static const std::string* name(const FacetNames& names, std::size_t f) {
+    if (names.empty() || names.of_facet[f] == kNothing) return nullptr;
+    return &names.names[names.of_facet[f]];
+  }
+  static void append_address(std::string& text, const FacetAddress& address) {
+    append_integer(text += 'f', address.level).push_back('_');
+    if (address.parent) {
+      append_integer(text, index(*address.parent));
+    } else {
+      text.push_back('-');
+    }
+  }
+
+  const MeshView& mesh_;
+  const std::string *material_ = nullptr, *group_ = nullptr;
+};
+
+void append_texture(std::string& text, const MeshAttributes<double>& attributes) {
+  for (const auto& p : attributes.texture.values) {
+    append_double(text += "vt ", p.x);
+    if (attributes.texture_size > 1) append_double(text += ' ', p.y);
+    if (attributes.texture_size > 2) append_double(text += ' ', p.z);
+    text.push_back('\n');
+  }
+}
+
+}  // namespace
+
 std::string obj_text(const MeshView& mesh, const MeshWriteOptions& options) {
   std::string text = unit_comment(options);
+  if (mesh.attributes != nullptr) {
+    for (const std::string& library : mesh.attributes->material_libraries) text += "mtllib " + library + "\n";
+  }
   for (const auto& p : mesh.points) append_point(text += "v ", p).push_back('\n');
+  const bool textured = mesh.attributes != nullptr && !mesh.attributes->texture.empty();
+  if (textured) append_texture(text, *mesh.attributes);
+  ObjNames names(mesh);
   for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
     if (mesh.facets[f].empty()) continue;
-    if (!mesh.addresses.empty()) {
-      const FacetAddress& address = mesh.addresses[f];
-      append_integer(text += "g f", address.level).push_back('_');
-      if (address.parent) {
-        append_integer(text, index(*address.parent));
-      } else {
-        text.push_back('-');
-      }
-      text.push_back('\n');
-    }
+    names.append(text, f);
     text.push_back('f');
-    for (const VertexId v : mesh.facets[f]) append_integer(text += ' ', index(v) + 1);
+    std::size_t corner = mesh.facets.start(f);
+    for (const VertexId v : mesh.facets[f]) {
+      append_integer(text += ' ', index(v) + 1);
+      const std::uint32_t value = textured ? mesh.attributes->texture.of_corner[corner++] : kNothing;
+      if (value != kNothing) append_integer(text += '/', std::uint64_t{value} + 1);
+    }
     text.push_back('\n');
   }
   return text;

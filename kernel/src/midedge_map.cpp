@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace hexact {
@@ -106,20 +107,16 @@ MidedgeMap MidedgeMap::stepped(MidedgeBoundary boundary) const {
 }
 
 MidedgeMap MidedgeMap::general_step(MidedgeBoundary boundary) const {
-  const RawVector<std::uint32_t> edge = edge_numbers();
   const std::vector<std::uint32_t> fan_start = fan_starts();
   const auto h_count = static_cast<std::uint32_t>(origin_.size());
   std::vector<std::uint32_t> edges_at(vertices_, 0);
   for (std::uint32_t h = 0; h < h_count; ++h) edges_at[origin_[h]] += twin_[h] == kNoTwin ? 2 : 1;
-  const auto becomes_facet = [&](std::size_t v) {
-    const bool inner = twin_[fan_start[v]] != kNoTwin;
-    return inner || (boundary == MidedgeBoundary::close && edges_at[v] >= 3);
-  };
   Birth birth{level_ + 1, static_cast<std::uint32_t>(facet_count()), {}};
   std::vector<std::uint32_t> sizes;
   std::size_t total = h_count;
   for (std::uint32_t v = 0; v < vertices_; ++v) {
-    if (!becomes_facet(v)) continue;
+    const bool inner = twin_[fan_start[v]] != kNoTwin;
+    if (!inner && (boundary == MidedgeBoundary::drop || edges_at[v] < 3)) continue;
     birth.parents.push_back(v);
     sizes.push_back(edges_at[v]);
     total += edges_at[v];
@@ -130,25 +127,11 @@ MidedgeMap MidedgeMap::general_step(MidedgeBoundary boundary) const {
   r.set_sizes(sizes, *this);
   r.vertices_ = edge_count();
   r.level_ = level_ + 1;
+  r.origin_ = edge_numbers();
   r.origin_.resize(total);
-  r.twin_.resize(total);
-  std::copy(edge.begin(), edge.end(), r.origin_.begin());
-  std::fill(r.twin_.begin(), r.twin_.begin() + h_count, kNoTwin);
+  r.twin_.assign(total, kNoTwin);
   std::uint32_t at = h_count;
-  for (const std::uint32_t v : birth.parents) {
-    std::uint32_t h = fan_start[v], last = h;
-    do {
-      r.origin_[at] = edge[h];
-      last = previous(h);
-      r.twin_[at] = last;
-      r.twin_[last] = at++;
-      h = twin_[last];
-    } while (h != kNoTwin && h != fan_start[v]);
-    if (h == kNoTwin) {  // the edge that closes the fan of a boundary vertex
-      r.origin_[at] = edge[last];
-      r.twin_[at++] = kNoTwin;
-    }
-  }
+  for (const std::uint32_t v : birth.parents) at = r.cut_vertex(*this, fan_start[v], at);
   r.boundary_ = static_cast<std::size_t>(std::count(r.twin_.begin(), r.twin_.end(), kNoTwin));
   r.alternating_ = closed();
   r.regular_ = closed() && alternating_;
@@ -156,6 +139,20 @@ MidedgeMap MidedgeMap::general_step(MidedgeBoundary boundary) const {
   if (birth.parents.size() == vertices_) birth.parents.clear();
   r.births_.push_back(std::move(birth));
   return r;
+}
+
+/// Writes the facet that cuts off a vertex of `parent` to half-edges `at` and following; returns the number behind them.
+std::uint32_t MidedgeMap::cut_vertex(const MidedgeMap& parent, std::uint32_t fan_start, std::uint32_t at) {
+  std::uint32_t h = fan_start, last = h;
+  do {
+    origin_[at] = origin_[h];  // half-edges of old facets leave the vertex on their edge
+    last = parent.previous(h);
+    twin_[at] = last;
+    twin_[last] = at++;
+    h = parent.twin(last);
+  } while (h != kNoTwin && h != fan_start);
+  if (h == kNoTwin) origin_[at++] = origin_[last];  // the edge that closes the fan of a boundary vertex
+  return at;
 }
 
 /// With valence 4 everywhere: half-edge h of an old facet leaves edge(h) and cuts its target v, whose new facet is the
@@ -210,23 +207,15 @@ MidedgeMap MidedgeMap::double_stepped() const {
   const auto h_count = static_cast<std::uint32_t>(origin_.size());
   const std::vector<std::uint32_t> fan_start = fan_starts();
   const RawVector<std::uint32_t> edge = edge_numbers();
-  // For each edge the first half-edge of its quadrilateral, or none on the boundary.
-  std::vector<std::uint32_t> quad(edge_count(), kNoTwin);
   Birth edges{level_ + 2, static_cast<std::uint32_t>(facet_count()), {}};
-  std::vector<std::uint32_t> sizes;
-  std::size_t total = h_count;
   for (std::uint32_t h = 0; h < h_count; ++h) {
-    if (twin_[h] == kNoTwin || twin_[h] < h) continue;
-    edges.parents.push_back(edge[h]);
-    quad[edge[h]] = static_cast<std::uint32_t>(total);
-    sizes.push_back(4);
-    total += 4;
-    require_room(total);
+    if (twin_[h] != kNoTwin && twin_[h] > h) edges.parents.push_back(edge[h]);
   }
-  Birth vertices{level_ + 1, edges.first + static_cast<std::uint32_t>(sizes.size()), {}};
-  std::vector<std::uint32_t> valence(vertices_, 0);
+  Birth vertices{level_ + 1, edges.first + static_cast<std::uint32_t>(edges.parents.size()), {}};
+  std::vector<std::uint32_t> valence(vertices_, 0), sizes(edges.parents.size(), 4);
   for (const std::uint32_t v : origin_) ++valence[v];
-  const std::size_t first_fan = total;
+  const std::size_t first_fan = h_count + 4 * edges.parents.size();
+  std::size_t total = first_fan;
   for (std::uint32_t v = 0; v < vertices_; ++v) {
     if (twin_[fan_start[v]] == kNoTwin) continue;
     vertices.parents.push_back(v);
@@ -241,27 +230,19 @@ MidedgeMap MidedgeMap::double_stepped() const {
   r.level_ = level_ + 2;
   r.origin_.resize(total);
   r.twin_.assign(total, kNoTwin);
+  std::iota(r.origin_.begin(), r.origin_.begin() + h_count, 0u);
+  // For each edge the first half-edge of its quadrilateral, or none on the boundary.
+  std::vector<std::uint32_t> quad(edge_count(), kNoTwin);
+  for (std::uint32_t i = 0; i < edges.parents.size(); ++i) quad[edges.parents[i]] = h_count + 4 * i;
   for (std::uint32_t h = 0; h < h_count; ++h) {
-    r.origin_[h] = h;
-    const std::uint32_t t = twin_[h];
-    if (t == kNoTwin || origin_[h] > origin_[t]) continue;  // each inner edge once, from its smaller end
-    const std::uint32_t q = quad[edge[h]];
-    r.origin_[q] = next(h);
-    r.origin_[q + 1] = h;
-    r.origin_[q + 2] = next(t);
-    r.origin_[q + 3] = t;
-    r.twin_[q] = h;
-    r.twin_[h] = q;
-    r.twin_[q + 2] = t;
-    r.twin_[t] = q + 2;
+    if (twin_[h] != kNoTwin && origin_[h] < origin_[twin_[h]]) r.lay_along_edge(*this, h, quad[edge[h]]);
   }
   auto at = static_cast<std::uint32_t>(first_fan);
   for (const std::uint32_t v : vertices.parents) {
     std::uint32_t h = fan_start[v];
     do {
       const std::uint32_t following = twin_[previous(h)];
-      const bool from_smaller_end = v < target(following);
-      const std::uint32_t side = quad[edge[following]] + (from_smaller_end ? 1 : 3);
+      const std::uint32_t side = quad[edge[following]] + (v < target(following) ? 1 : 3);
       r.origin_[at] = h;
       r.twin_[at] = side;
       r.twin_[side] = at++;
@@ -273,6 +254,19 @@ MidedgeMap MidedgeMap::double_stepped() const {
   r.births_.push_back(std::move(edges));
   r.births_.push_back(std::move(vertices));
   return r;
+}
+
+/// Writes the quadrilateral of a double step along an inner edge; h leaves its smaller end.
+void MidedgeMap::lay_along_edge(const MidedgeMap& parent, std::uint32_t h, std::uint32_t quad) {
+  const std::uint32_t t = parent.twin(h);
+  origin_[quad] = parent.next(h);
+  origin_[quad + 1] = h;
+  origin_[quad + 2] = parent.next(t);
+  origin_[quad + 3] = t;
+  twin_[quad] = h;
+  twin_[h] = quad;
+  twin_[quad + 2] = t;
+  twin_[t] = quad + 2;
 }
 
 FacetAddress MidedgeMap::address(std::uint32_t f) const {

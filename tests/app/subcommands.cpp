@@ -33,7 +33,7 @@ std::string bytes(const program::Folder& folder, const std::string& name) {
 
 TEST_CASE("make writes every sample, exactly in .planes where it is convex", "[program][make]") {
   const program::Folder folder;
-  std::vector<std::string> names = {"prism 7", "random 9 4"};
+  std::vector<std::string> names = {"prism 7", "random 9 4"};  // grid M N is in the tests of samples
   for (const SampleName& s : sample_names()) names.push_back(s.name);
   for (const std::string& name : names) {
     CAPTURE(name);
@@ -43,12 +43,14 @@ TEST_CASE("make writes every sample, exactly in .planes where it is convex", "[p
     CHECK(info.at("edges") == made.at("edges"));
     CHECK(info.at("faces") == made.at("faces"));
     CHECK(info.at("orientable") == true);
-    const bool solid = name != "torus" && name != "saddle";
+    // The corner of seven cubes has vertices within its edges and facets, which no three planes define.
+    const bool solid = name != "torus" && name != "saddle" && name != "seven-cubes-corner";
     CHECK(info.at("closed") == (name != "saddle"));
     CHECK(run(folder, "\"$hexact\" make " + name + " -o sample.planes").status == (solid ? 0 : 3));
     if (!solid) continue;
     const json exact = report(folder, "info sample.planes --exact");
-    for (const char* key : {"planar", "convex", "closed", "manifold"}) CHECK(exact.at(key) == true);
+    for (const char* key : {"planar", "closed", "manifold"}) CHECK(exact.at(key) == true);
+    CHECK(exact.at("convex") == (name != "seven-cubes"));
     CHECK(exact.at("euler") == 2);
     CHECK(exact.at("volume_exact").is_string());
   }

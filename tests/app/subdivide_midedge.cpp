@@ -5,6 +5,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+#include <sstream>
+
 using namespace hexact;
 using program::run;
 
@@ -104,4 +107,80 @@ TEST_CASE("what Midedge cannot do is refused with the right status and the eleme
   expect("cube.obj --scheme midedge6 --levels 20 --max-facets 1000", 4, "6291458");
   expect("cube.obj --scheme midedge6 --levels 20 --max-memory 1MiB", 4, "--max-memory");
   expect("cube.obj --scheme midedge6 --levels 60", 4, "half-edges");
+}
+
+TEST_CASE("--keep-size keeps the volume on every level", "[app][midedge]") {
+  const program::Folder folder;
+  program::write_bytes((folder.path() / "cube.obj").string(), kCube);
+  program::write_bytes((folder.path() / "strip.obj").string(), kStrip);
+  for (const std::string options : {"--scheme midedge6", "--scheme midedge", "--scheme midedge6 --arithmetic rational"}) {
+    const auto r = report(run(folder, "$hexact subdivide cube.obj --keep-size --levels 7 -o a.off --json " + options));
+    for (const auto& row : r.at("levels")) CHECK(row.at("volume").get<double>() == Approx(8).epsilon(1e-12));
+    REQUIRE(r.at("size_factors").size() == 1);
+    CHECK(report(run(folder, "$hexact info a.off --json")).at("vertices") == 768);
+  }
+  const auto open = run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --keep-size -o b.off --json");
+  CHECK(open.status == 3);
+  CHECK(open.out.find("\"edge 0-1\"") != std::string::npos);
+}
+
+TEST_CASE("limit points, planes and bounds of the cube's facets, and its mesh on the limit surface", "[app][midedge]") {
+  const program::Folder folder;
+  program::write_bytes((folder.path() / "cube.obj").string(), kCube);
+  (void)report(run(folder, "$hexact subdivide cube.obj --scheme midedge6 --levels 1 --limit-points l.json -o a.obj --json"));
+  const auto document = nlohmann::json::parse(program::read_bytes((folder.path() / "l.json").string()));
+  CHECK(document.at("hexact") == "limit-points");
+  REQUIRE(document.at("facets").size() == 14);
+  const auto& top = document.at("facets")[1];  // f 5 6 7 8
+  CHECK(top.at("facet") == 1);
+  CHECK(top.at("plane")[2] == 1);
+  CHECK(top.at("plane")[3] == top.at("point")[2]);
+  CHECK(top.at("exact")[0] == "0");
+  CHECK(top.at("exact_normal")[0] == "0");
+  CHECK(top.at("normal_bound").get<double>() < 1e-14);
+  const auto& corner = document.at("facets")[12];  // vertex 7
+  CHECK(corner.at("point")[0] == corner.at("point")[2]);
+  CHECK(corner.at("plane")[1].get<double>() == Approx(1 / std::sqrt(3.0)).epsilon(1e-13));
+  CHECK_FALSE(corner.contains("exact_normal"));
+  // The vertex of level 0 becomes the facet of level 1: --limit puts it where that facet's limit is.
+  (void)report(run(folder, "$hexact subdivide cube.obj --scheme midedge6 --levels 0 --limit -o on.obj --json"));
+  std::istringstream lines(program::read_bytes((folder.path() / "on.obj").string()));
+  std::string word;
+  for (std::size_t v = 0; v < 8; ++v) {
+    lines >> word;
+    REQUIRE(word == "v");
+    for (std::size_t c = 0; c < 3; ++c) {
+      lines >> word;
+      CHECK(std::stod(word) == document.at("facets")[6 + v].at("point")[c].get<double>());
+    }
+  }
+  program::write_bytes((folder.path() / "strip.obj").string(), kStrip);
+  CHECK(run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --limit -o b.obj").status == 3);
+  (void)report(run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --limit-points l.json -o b.obj --json"));
+  CHECK(nlohmann::json::parse(program::read_bytes((folder.path() / "l.json").string())).at("facets")[0].at("point").is_null());
+  CHECK(run(folder, "$hexact subdivide cube.obj --scheme midedge6 --levels 1 --limit-points l.json -o a.obj --max-facets 20").status == 4);
+}
+
+TEST_CASE("texture coordinates, groups, materials and addresses go through the program", "[app][midedge]") {
+  const program::Folder folder;
+  std::string cube = std::string("mtllib a.mtl\n") + kCube;
+  const std::size_t facets = cube.find("f 4");
+  cube = cube.substr(0, facets) + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl brick\ng floor\nf 4/1 3/2 2/3 1/4\ng walls\n" +
+         cube.substr(cube.find("f 5"));
+  program::write_bytes((folder.path() / "cube.obj").string(), cube);
+  (void)report(run(folder, "$hexact subdivide cube.obj --scheme midedge6 --levels 2 -o a.obj --json"));
+  const std::string text = program::read_bytes((folder.path() / "a.obj").string());
+  CHECK(text.starts_with("mtllib a.mtl\n"));
+  // In the corner (0, 0): 5/16 of the middles (1/2, 0) and (0, 1/2), 3/32 of (1, 1/2) and (1/2, 1), 3/16 of the corner.
+  CHECK(text.find("\nvt 0.296875 0.296875\n") != std::string::npos);
+  CHECK(text.find("\ng floor f0_-\n") != std::string::npos);
+  CHECK(text.find("\ng walls f2_11\n") != std::string::npos);
+  CHECK(text.find("\nusemtl brick\n") != std::string::npos);
+  // Read back, refined again, addresses count on.
+  (void)report(run(folder, "$hexact subdivide a.obj --scheme midedge --levels 1 -o b.obj --json"));
+  const std::string again = program::read_bytes((folder.path() / "b.obj").string());
+  CHECK(again.find("g walls f2_11\n") != std::string::npos);
+  CHECK(again.find(" f3_0\n") != std::string::npos);
+  CHECK(report(run(folder, "$hexact convert a.obj -o c.ply --json")).at("faces") == 26);
+  CHECK(program::read_bytes((folder.path() / "c.ply").string()).find("double texcoord") != std::string::npos);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/io/mesh_file.hpp"
 
+#include "hexact/exact/rounded_attributes.hpp"
 #include "hexact/kernel/errors.hpp"
 
 #include <catch2/catch.hpp>
@@ -145,6 +146,74 @@ TEST_CASE("OBJ: relative indices, texture and normal indices, groups", "[io]") {
   REQUIRE(grouped.addresses.size() == 4);
   CHECK(grouped.addresses[0] == FacetAddress{2, VertexId{5}});
   CHECK(grouped.addresses[3] == FacetAddress{0, std::nullopt});
+}
+
+TEST_CASE("OBJ: texture coordinates, groups, materials and addresses are read and written", "[io]") {
+  const std::string text =
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 0.1 1\nvt 1 0.5\n"
+      "f 2 3 4\nusemtl brick wall\ng south side f3_7\nf 1/1 3/2 2/3\nf 1/1/9 2/-1/9 4/2\ng\nusemtl glass\nf 1 4 3\n";
+  const auto read = soup(Format::obj, text);
+  const auto& a = read.attributes;
+  CHECK(a.texture_size == 2);
+  CHECK(a.texture.values.size() == 3);
+  CHECK(a.texture.values[1] == Point3<Rational>{Rational(1) / Rational(10), 1, 0});
+  CHECK(a.texture.of_corner == std::vector<std::uint32_t>{kNothing, kNothing, kNothing, 0, 1, 2, 0, 2, 1, kNothing, kNothing, kNothing});
+  CHECK(a.groups.names == std::vector<std::string>{"south side"});
+  CHECK(a.groups.of_facet == std::vector<std::uint32_t>{kNothing, 0, 0, kNothing});
+  CHECK(a.materials.names == std::vector<std::string>{"brick wall", "glass"});
+  CHECK(a.materials.of_facet == std::vector<std::uint32_t>{kNothing, 0, 0, 1});
+  CHECK(a.material_libraries == std::vector<std::string>{"a.mtl"});
+  CHECK(read.addresses.empty());  // only two facets have one
+
+  const MeshAttributes<double> attributes = rounded_attributes(a);
+  const std::vector<Point3<double>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const std::vector<FacetAddress>& addresses :
+       {std::vector<FacetAddress>{}, {{0, {}}, {3, VertexId{7}}, {3, VertexId{8}}, {0, {}}}}) {
+    const auto again = soup(Format::obj, io::mesh_text(Format::obj, {points, read.facets, addresses, &attributes}, {}));
+    CHECK(again.attributes.groups == a.groups);
+    CHECK(again.attributes.materials == a.materials);
+    CHECK(again.attributes.material_libraries == a.material_libraries);
+    CHECK(rounded_attributes(again.attributes) == attributes);
+    CHECK(again.addresses == addresses);
+    CHECK(again.facets == read.facets);
+  }
+  // Texture numbers count only where there are texture coordinates.
+  CHECK(soup(Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/7 2 3/-2\n").attributes.empty());
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/4 2/3")) == Place{11, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/-4 2/3")) == Place{11, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3 2/3")) == Place{11, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "vt 0.1 1", "vt 0.1 nan")) == Place{7, "texture coordinate 1"});
+  CHECK(error_of(Format::obj, replaced(text, "vt 0.1 1", "vt 0.1 1 2 3")) == Place{7, "texture coordinate 1"});
+}
+
+TEST_CASE("PLY: texture coordinates of corners and of vertices", "[io]") {
+  FacetLoops facets;
+  add_facet(facets, {0, 1, 2});
+  add_facet(facets, {0, 2, 3});
+  add_facet(facets, {0, 3, 1});
+  const std::vector<Point3<double>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::vector<FacetAddress> addresses{{1, VertexId{3}}, {0, {}}, {0, {}}};
+  MeshAttributes<double> attributes;
+  attributes.texture = {{{0.1, 0.25, 0}, {1, 0, 0}, {0, 5e-324, 0}, {0.1, 0.25, 0}, {-1, 0, 0}, {7, 8, 0}},
+                        {0, 1, 2, kNothing, kNothing, kNothing, 3, 4, 5}};
+  for (const Format format : {Format::ply, Format::ply_ascii}) {
+    const auto again = soup(format, io::mesh_text(format, {points, facets, addresses, &attributes}, {}));
+    CHECK(rounded_attributes(again.attributes) == attributes);
+    CHECK(again.facets == facets);
+    CHECK(again.addresses == addresses);
+    CHECK(soup(format, io::mesh_text(format, {points, facets, addresses}, {})).attributes.empty());
+  }
+  const std::string text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                           "property float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                           "0 0 0 0.5 1\n1 0 0 0.5 2\n0 1 0 0.5 3\n3 2 0 1\n";
+  const auto vertices = soup(Format::ply, text).attributes.texture;
+  CHECK(vertices.of_corner == std::vector<std::uint32_t>{2, 0, 1});
+  CHECK(vertices.values[2] == Point3<Rational>{Rational(1) / Rational(2), 3, 0});
+  const std::string lists = replaced(text, "end_header", "property list uchar float texcoord\nend_header");
+  CHECK(soup(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 6 1 2 3 4 5 6\n")).attributes.texture.values[2] == Point3<Rational>{5, 6, 0});
+  CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 5 1 2 3 4 5\n")).element == "facet 0");
+  CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 4 1 2 3 4\n")).element == "facet 0");
+  CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 6 1 2 3 4 nan 6\n")).element == "facet 0");
 }
 
 TEST_CASE("OFF: further columns, comments, colours", "[io]") {

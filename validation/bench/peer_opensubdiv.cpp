@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// peer_opensubdiv LEVEL: OpenSubdiv's uniform Catmull–Clark refinement of the cube, topology and double coordinates.
+// peer_opensubdiv LEVEL [loop]: OpenSubdiv's uniform refinement, topology and double coordinates of all levels:
+// Catmull–Clark of the cube, or Loop of the octahedron.
 #include "measure.hpp"
 
 #include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 
-#include <array>
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace {
@@ -27,35 +29,54 @@ struct Vertex {
   }
 };
 
-constexpr std::array<int, 6> kSizes = {4, 4, 4, 4, 4, 4};
-constexpr std::array<int, 24> kCorners = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+/// A start mesh and the scheme that refines it.
+struct Task {
+  const char* name;
+  Sdc::SchemeType scheme;
+  std::vector<Vertex> points;
+  std::vector<int> sizes, corners;
+};
 
-std::unique_ptr<Far::TopologyRefiner> cube_refiner() {
-  Far::TopologyDescriptor cube;
-  cube.numVertices = 8;
-  cube.numFaces = static_cast<int>(kSizes.size());
-  cube.numVertsPerFace = kSizes.data();
-  cube.vertIndicesPerFace = kCorners.data();
+Task catmull_clark_of_cube() {
+  Task task{"OpenSubdiv uniform Catmull-Clark, double", Sdc::SCHEME_CATMARK, {}, std::vector<int>(6, 4),
+            {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5}};
+  for (int i = 0; i < 8; ++i) {
+    task.points.push_back({(i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0});
+  }
+  return task;
+}
+
+Task loop_of_octahedron() {
+  return {"OpenSubdiv uniform Loop, double", Sdc::SCHEME_LOOP,
+          {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, std::vector<int>(8, 3),
+          {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5}};
+}
+
+std::unique_ptr<Far::TopologyRefiner> refiner_of(const Task& task) {
+  Far::TopologyDescriptor mesh;
+  mesh.numVertices = static_cast<int>(task.points.size());
+  mesh.numFaces = static_cast<int>(task.sizes.size());
+  mesh.numVertsPerFace = task.sizes.data();
+  mesh.vertIndicesPerFace = task.corners.data();
   using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-  return std::unique_ptr<Far::TopologyRefiner>(
-      Factory::Create(cube, Factory::Options(Sdc::SCHEME_CATMARK, Sdc::Options())));
+  return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(mesh, Factory::Options(task.scheme, Sdc::Options())));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int level = argc == 2 ? std::atoi(argv[1]) : 0;
-  if (level < 1) {
-    std::cerr << "usage: peer_opensubdiv LEVEL\n";
+  const int level = argc >= 2 ? std::atoi(argv[1]) : 0;
+  const bool loop = argc == 3 && std::string(argv[2]) == "loop";
+  if (level < 1 || argc > (loop ? 3 : 2)) {
+    std::cerr << "usage: peer_opensubdiv LEVEL [loop]\n";
     return 2;
   }
+  const Task task = loop ? loop_of_octahedron() : catmull_clark_of_cube();
   bench::Measure measure;
-  const std::unique_ptr<Far::TopologyRefiner> refiner = cube_refiner();
+  const std::unique_ptr<Far::TopologyRefiner> refiner = refiner_of(task);
   refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(level));
   std::vector<Vertex> points(static_cast<std::size_t>(refiner->GetNumVerticesTotal()));
-  for (int i = 0; i < 8; ++i) {
-    points[static_cast<std::size_t>(i)] = {(i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0};
-  }
+  std::copy(task.points.begin(), task.points.end(), points.begin());
   const Far::PrimvarRefinerReal<double> interpolation(*refiner);
   Vertex* source = points.data();
   for (int l = 1; l <= level; ++l) {
@@ -64,6 +85,6 @@ int main(int argc, char** argv) {
     source = target;
   }
   measure.stop();
-  measure.print("OpenSubdiv uniform Catmull-Clark, double", static_cast<std::size_t>(refiner->GetLevel(level).GetNumFaces()), 1);
+  measure.print(task.name, static_cast<std::size_t>(refiner->GetLevel(level).GetNumFaces()), 1);
   return 0;
 }

@@ -45,13 +45,15 @@ struct MidedgeLimit {
 ///
 /// Simple rule: the mean of the corners stays for ever and is the limit; the tangent plane is that of Σ_s ω^-s P(s).
 /// For k = 3 its eigenvalue 1/4 is shared with other modes and there is no normal.
+///
+/// Facets of more than 512 corners get no normal.
 class MidedgeLimits {
  public:
   explicit MidedgeLimits(MidedgeRule rule);
   MidedgeLimits(MidedgeLimits&&) noexcept;
   ~MidedgeLimits();
 
-  /// Prepares facets of k corners; needed once for each size, about 0.1 s. Precondition: k >= 3.
+  /// Prepares facets of k corners; needed once for each size; 0.1 s for small ones. Precondition: k >= 3.
   void prepare(std::uint32_t k);
   /// The limit of the centre of facet f, or nothing where the rule needs two rings of quadrilaterals and there are none.
   /// Precondition: the size of f has been prepared. May be called from several threads.

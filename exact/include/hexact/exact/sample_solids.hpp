@@ -28,6 +28,10 @@ struct SampleName {
 /// Precondition: 3 <= n <= 100000.
 [[nodiscard]] PolygonSoup<Rational> prism(std::size_t n);
 
+/// m × n quadrilaterals over the squares of the integer grid, at heights from 0 to 3/2 that repeat with period 4; open.
+/// Precondition: m, n >= 1, m · n <= 1000000.
+[[nodiscard]] PolygonSoup<Rational> grid(std::size_t m, std::size_t n);
+
 /// A convex polyhedron with exactly n facets and three at every vertex: the intersection of n half-spaces with small
 /// integers, about tangent to the sphere of radius 100 around the origin, drawn with splitmix64 from `seed`. The same
 /// everywhere: only integers decide. Facets are ordered as drawn.

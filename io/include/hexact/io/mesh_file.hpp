@@ -46,6 +46,7 @@ struct MeshView {
   const std::vector<Point3<double>>& points;
   const FacetLoops& facets;
   const std::vector<FacetAddress>& addresses;  ///< may be empty
+  const MeshAttributes<double>* attributes = nullptr;  ///< what of it the format has is written
 };
 
 /// Writes a mesh whole or not at all (see output_file.hpp), "-" being standard output. Doubles are written so that

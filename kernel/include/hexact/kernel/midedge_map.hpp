@@ -120,6 +120,8 @@ class MidedgeMap {
   void require_room(std::size_t half_edges) const;
   [[nodiscard]] MidedgeMap regular_step() const;
   [[nodiscard]] MidedgeMap general_step(MidedgeBoundary boundary) const;
+  [[nodiscard]] std::uint32_t cut_vertex(const MidedgeMap& parent, std::uint32_t fan_start, std::uint32_t at);
+  void lay_along_edge(const MidedgeMap& parent, std::uint32_t h, std::uint32_t quad);
 
   RawVector<std::uint32_t> origin_, twin_;
   std::vector<std::uint32_t> start_{0};  ///< of the facets that are listed, and their end

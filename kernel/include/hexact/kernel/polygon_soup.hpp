@@ -3,6 +3,8 @@
 
 #include "hexact/kernel/facet_loops.hpp"
 #include "hexact/kernel/ids.hpp"
+#include "hexact/kernel/mesh_attributes.hpp"
+#include "hexact/kernel/point3.hpp"
 
 #include <array>
 #include <cstdint>
@@ -10,13 +12,6 @@
 #include <vector>
 
 namespace hexact {
-
-/// A point or vector with coordinates in the field S.
-template <class S>
-struct Point3 {
-  S x{}, y{}, z{};
-  friend bool operator==(const Point3&, const Point3&) = default;
-};
 
 /// Where a facet comes from: the level that made it and the vertex of the level before that was cut.
 /// Facets of level 0 have no parent. The address never changes in later levels.
@@ -42,6 +37,7 @@ struct PolygonSoup {
   FacetLoops facets;
   std::vector<FacetAddress> addresses;  ///< empty, or one for each facet
   SoupStorage storage;                  ///< of the file they were read from
+  MeshAttributes<S> attributes;
 };
 
 }  // namespace hexact

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hexact/kernel/midedge_attributes.hpp"
+
+#include "hexact/kernel/midedge_statistics.hpp"
+#include "midedge_samples.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace hexact;
+using namespace hexact::midedge_samples;
+
+namespace {
+
+constexpr MidedgeRule kRules[] = {MidedgeRule::simple, MidedgeRule::six_point};
+using Attributes = MeshAttributes<Rational>;
+
+struct Carrying {
+  Level level;
+  Attributes attributes;
+  void step(MidedgeRule rule, MidedgeBoundary boundary) {
+    Level next = boundary == MidedgeBoundary::dual && !level.map.closed() ? midedge_double_step(level, rule)
+                                                                          : midedge_step(level, rule, boundary);
+    attributes = refined_attributes(level.map, next.map, attributes, rule);
+    level = std::move(next);
+  }
+};
+
+/// Texture coordinates that are the points themselves: no seams.
+Attributes points_as_texture(const Level& level) {
+  Attributes a;
+  a.texture.values.assign(level.points.begin(), level.points.end());
+  for (std::uint32_t h = 0; h < level.map.half_edge_count(); ++h) a.texture.of_corner.push_back(level.map.origin(h));
+  return a;
+}
+
+const Point& texture_at(const Carrying& c, std::uint32_t h) { return c.attributes.texture.values[c.attributes.texture.of_corner[h]]; }
+
+/// A grid of 6 × 3 facets; the columns from 3 on have texture coordinates of their own, 100 further.
+Carrying grid_with_seam(const Level& level) {
+  Carrying c{level, {}};
+  for (const Point& p : level.points) c.attributes.texture.values.push_back(p);
+  for (const Point& p : level.points) c.attributes.texture.values.push_back({p.x + Rational(100), p.y, p.z});
+  const auto n = static_cast<std::uint32_t>(level.points.size());
+  for (std::uint32_t h = 0; h < level.map.half_edge_count(); ++h) {
+    c.attributes.texture.of_corner.push_back(level.map.origin(h) + (level.map.facet(h) % 6 >= 3 ? n : 0));
+  }
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("texture coordinates without seams move as the points do", "[midedge]") {
+  const auto bumpy = [](int i, int j) { return Point{i * i, j, (i * j * 5) % 7}; };
+  const std::vector<Level> samples{golden_mesh("cube"), golden_mesh("octa"), golden_mesh("regular_torus_6x5"), tower(5), tower(7),
+                                   grid(4, 3, bumpy), grid(3, 1, bumpy)};
+  for (const Level& base : samples) {
+    for (const MidedgeRule rule : kRules) {
+      for (const MidedgeBoundary boundary : {MidedgeBoundary::dual, MidedgeBoundary::close, MidedgeBoundary::drop}) {
+        Carrying c{base, points_as_texture(base)};
+        for (int n = 0; n < 4; ++n) {
+          c.step(rule, boundary);
+          REQUIRE(c.attributes.texture.of_corner.size() == c.level.map.half_edge_count());
+          CHECK(c.attributes.texture.values.size() == c.level.points.size());
+          std::size_t wrong = 0;
+          for (std::uint32_t h = 0; h < c.level.map.half_edge_count(); ++h) {
+            wrong += texture_at(c, h) == c.level.points[c.level.map.origin(h)] ? 0 : 1;
+          }
+          CHECK(wrong == 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("along a seam each side is refined as if it ended there", "[midedge]") {
+  const auto bumpy = [](int i, int j) { return Point{i, j * j, (i * j) % 3}; };
+  const Level whole = grid(6, 3, bumpy);
+  // The same facets, cut along the column i = 3: points of the right part have a second copy.
+  std::vector<Point> points = whole.points;
+  std::vector<std::vector<int>> facets;
+  const auto n = static_cast<int>(points.size());
+  points.insert(points.end(), whole.points.begin(), whole.points.end());
+  for (std::uint32_t f = 0; f < whole.map.facet_count(); ++f) {
+    facets.emplace_back();
+    for (const std::uint32_t v : whole.map.loop(f)) facets.back().push_back(static_cast<int>(v) + (f % 6 >= 3 ? n : 0));
+  }
+  std::vector<int> number(points.size(), -1);
+  std::vector<Point> used;
+  for (auto& facet : facets) {
+    for (int& v : facet) {
+      int& k = number[static_cast<std::size_t>(v)];
+      if (k < 0) {
+        k = static_cast<int>(used.size());
+        used.push_back(points[static_cast<std::size_t>(v)]);
+        if (v >= n) used.back().x = used.back().x + Rational(100);
+      }
+      v = k;
+    }
+  }
+  const Level cut = level_of(used, facets);
+  for (const MidedgeRule rule : kRules) {
+    for (const MidedgeBoundary boundary : {MidedgeBoundary::dual, MidedgeBoundary::close}) {
+      Carrying c = grid_with_seam(whole);
+      c.step(rule, boundary);
+      const Level apart = boundary == MidedgeBoundary::dual ? midedge_double_step(cut, rule) : midedge_step(cut, rule, boundary);
+      for (std::uint32_t h = 0; h < whole.map.half_edge_count(); ++h) {
+        CHECK(texture_at(c, h) == apart.points[apart.map.origin(h)]);
+      }
+      // Every new facet stays on one side.
+      for (std::uint32_t f = 0; f < c.level.map.facet_count(); ++f) {
+        const std::uint32_t start = c.level.map.facet_start(f);
+        const bool right = texture_at(c, start).x > Rational(50);
+        for (std::uint32_t h = start; h < start + c.level.map.facet_size(f); ++h) CHECK((texture_at(c, h).x > Rational(50)) == right);
+      }
+      for (int more = 0; more < 2; ++more) c.step(rule, boundary);
+      CHECK(c.attributes.texture.of_corner.size() == c.level.map.half_edge_count());
+    }
+  }
+}
+
+TEST_CASE("facets without texture coordinates pass none on", "[midedge]") {
+  Carrying c{golden_mesh("cube"), points_as_texture(golden_mesh("cube"))};
+  for (std::uint32_t h = 0; h < 4; ++h) c.attributes.texture.of_corner[h] = kNothing;  // facet 0: vertices 0, 2, 3, 1
+  c.step(MidedgeRule::six_point, MidedgeBoundary::close);
+  const auto has = [&](std::uint32_t f) { return c.attributes.texture.of_corner[c.level.map.facet_start(f)] != kNothing; };
+  for (std::uint32_t f = 0; f < 14; ++f) CHECK(has(f) == (f != 0 && (f < 6 || f >= 10)));
+}
+
+TEST_CASE("names go to the facets that follow the facet with the smallest number", "[midedge]") {
+  Carrying c{golden_mesh("cube"), {}};
+  c.attributes.groups = {{"bottom", "rest"}, {0, 1, 1, 1, kNothing, 1}};
+  c.attributes.materials = {{"brick"}, {kNothing, 0, 0, 0, 0, 0}};
+  c.attributes.material_libraries = {"a.mtl"};
+  c.step(MidedgeRule::six_point, MidedgeBoundary::close);
+  // Vertices 0 … 3 are at facet 0, vertices 4 … 7 at facet 1.
+  CHECK(c.attributes.groups.of_facet == std::vector<std::uint32_t>{0, 1, 1, 1, kNothing, 1, 0, 0, 0, 0, 1, 1, 1, 1});
+  c.step(MidedgeRule::six_point, MidedgeBoundary::close);
+  CHECK(c.attributes.groups.names == std::vector<std::string>{"bottom", "rest"});
+  CHECK(c.attributes.groups.of_facet.size() == 26);
+  CHECK(c.attributes.materials.of_facet[0] == kNothing);
+  CHECK(c.attributes.material_libraries == std::vector<std::string>{"a.mtl"});
+  // A double step names the facets of edges as two single steps do.
+  Carrying d{golden_mesh("cube"), {}};
+  d.attributes.groups = {{"bottom", "rest"}, {0, 1, 1, 1, kNothing, 1}};
+  const MidedgeMap after = d.level.map.double_stepped();
+  const auto names = refined_attributes(d.level.map, after, d.attributes, MidedgeRule::simple).groups.of_facet;
+  CHECK(std::count(names.begin(), names.end(), 0u) == std::count(c.attributes.groups.of_facet.begin(), c.attributes.groups.of_facet.end(), 0u));
+}
+
+TEST_CASE("equal texture coordinates are one", "[midedge]") {
+  const CornerValues<Rational> corners{{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1, 2, 3, 4, kNothing}};
+  CHECK(welded(corners).of_corner == std::vector<std::uint32_t>{0, 1, 0, 1, 4, kNothing});
+}
+
+TEST_CASE("keeping the size: every component keeps its volume and its centre", "[midedge]") {
+  const Level cube = golden_mesh("cube");
+  std::vector<Point> points = cube.points;
+  std::vector<std::vector<int>> facets;
+  for (const int part : {0, 1}) {
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      facets.emplace_back();
+      for (const std::uint32_t v : cube.map.loop(f)) facets.back().push_back(static_cast<int>(v) + 8 * part);
+    }
+  }
+  for (const Point& p : cube.points) points.push_back({Rational(3) * p.x + Rational(1000), Rational(2) * p.y, p.z});
+  for (const MidedgeRule rule : kRules) {
+    Level level = level_of(points, facets);
+    SizeKeeper<Rational> keeper(level);
+    for (int n = 0; n < 5; ++n) {
+      Level next = midedge_step(level, rule, MidedgeBoundary::close);
+      keeper.step(level.map, next.map);
+      level = std::move(next);
+      keeper.fit(level);
+      const Level scaled{level.map, keeper.scaled(level)};
+      REQUIRE(keeper.factors().size() == 2);
+      double volume[2] = {0, 0};
+      Point mean[2];
+      for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
+        const auto loop = level.map.loop(f);
+        const std::uint32_t part = keeper.component(f);
+        CHECK(part == (level.points[loop[0]].x > Rational(500) ? 1 : 0));
+        Point centre, area;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+          const Point &p = scaled.points[loop[i]], &q = scaled.points[loop[(i + 1) % loop.size()]];
+          centre = {centre.x + p.x, centre.y + p.y, centre.z + p.z};
+          area = {area.x + p.y * q.z - p.z * q.y, area.y + p.z * q.x - p.x * q.z, area.z + p.x * q.y - p.y * q.x};
+          mean[part] = {mean[part].x + p.x, mean[part].y + p.y, mean[part].z + p.z};
+        }
+        const Rational six = centre.x * area.x + centre.y * area.y + centre.z * area.z;
+        volume[part] += (six / Rational(6 * static_cast<long>(loop.size()))).to_double();
+      }
+      CHECK(volume[0] == Approx(8).epsilon(1e-12));
+      CHECK(volume[1] == Approx(48).epsilon(1e-12));
+      CHECK(mean[0] == Point{0, 0, 0});
+      CHECK(mean[1] == Point{Rational(1000L * static_cast<long>(level.map.half_edge_count() / 2)), 0, 0});
+    }
+    CHECK(keeper.factors()[0] == Approx(keeper.factors()[1]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("meshes without a volume to keep are refused", "[midedge]") {
+  const auto code = [](const Level& level) {
+    try {
+      SizeKeeper<Rational> keeper(level);
+    } catch (const InvalidInput& e) {
+      return e.code() + " " + e.findings().front().element;
+    }
+    return std::string();
+  };
+  CHECK(code(golden_mesh("cube")).empty());
+  CHECK(code(golden_mesh("open_grid_4x3")) == "HasBoundary edge 0-1");
+  CHECK(code(level_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})) == "NoVolume facet 0");
+}
