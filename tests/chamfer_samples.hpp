@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -25,7 +26,7 @@ inline PlaneBody with_equal_normals(PlaneBody body, int bits) {
   return body;
 }
 
-/// One chamfer step with the plane F + G − lift(e) for edge e = FG; old planes are doubled. Whether the result is convex
+/// One chamfer step with the plane F + G − lift(e, f, g) for edge e between facets f and g; old planes are doubled. Whether the result is convex
 /// depends on the lifts. Edges are numbered in the order in which the loops first take them to the larger vertex.
 template <class Lift>
 PlaneBody chamfer_step(const PlaneBody& body, std::uint32_t level, const Lift& lift) {
@@ -64,7 +65,7 @@ PlaneBody chamfer_step(const PlaneBody& body, std::uint32_t level, const Lift& l
     const std::size_t h = half_edge.at({a, b}), g = half_edge.at({b, a});
     const Plane<Integer> f = body.planes[facet[h]], k = body.planes[facet[g]];
     plane[{a, b}] = plane[{b, a}] = out.planes.size();
-    out.planes.push_back(Plane<Integer>{f.a + k.a, f.b + k.b, f.c + k.c, f.d + k.d - lift(e)});
+    out.planes.push_back(Plane<Integer>{f.a + k.a, f.b + k.b, f.c + k.c, f.d + k.d - lift(e, facet[h], facet[g])});
     out.addresses.push_back({level, make_id<VertexId>(e)});
     std::vector<VertexId> loop;
     for (const std::size_t v : {of.size() + a, next(g), g, of.size() + b, next(h), h}) loop.push_back(make_id<VertexId>(v));
@@ -88,7 +89,7 @@ inline PlaneBody chamfer(PlaneBody body, std::uint32_t levels, std::uint32_t fir
   for (std::uint32_t l = first_level; l < first_level + levels; ++l) {
     for (unsigned long size = static_cast<unsigned long>(bits + 40);; --size) {
       if (size < 3) throw std::logic_error("no lift of this sample is small enough");
-      const auto lift = [&](std::size_t e) { return Integer(static_cast<long long>(8 + e % 3)) * Integer::power_of_two(size - 3); };
+      const auto lift = [&](std::size_t e, std::size_t, std::size_t) { return Integer(static_cast<long long>(8 + e % 3)) * Integer::power_of_two(size - 3); };
       PlaneBody next = chamfer_step(body, l, lift);
       if (overall(verify(make_certificate(next, {{"convex", ""}}, {}, {}))) != Verdict::proved) continue;
       body = std::move(next);
@@ -96,6 +97,23 @@ inline PlaneBody chamfer(PlaneBody body, std::uint32_t levels, std::uint32_t fir
     }
   }
   return body;
+}
+
+/// Two steps. The first lifts of the three edges at each vertex of the facets `caps`, which share no vertex, are 55, 55
+/// and 100, so that the defect of these facets is 10; the second step lifts the edges of these facets by `lift`.
+inline PlaneBody narrow_budget(const PlaneBody& base, const std::set<std::size_t>& caps, long long lift) {
+  const long long unit = 1 << 8;
+  const auto is_cap = [&](std::size_t f) { return caps.count(f) != 0; };
+  std::set<std::size_t> beside_cap;
+  const PlaneBody one = chamfer_step(with_equal_normals(base, 20), 1, [&](std::size_t e, std::size_t f, std::size_t g) {
+    if (!is_cap(f) && !is_cap(g)) return Integer(100 * unit);
+    beside_cap.insert(base.plane_count() + e);
+    return Integer(55 * unit);
+  });
+  return chamfer_step(one, 2, [&](std::size_t, std::size_t f, std::size_t g) {
+    if (is_cap(f) || is_cap(g)) return Integer(lift * unit);
+    return Integer((beside_cap.count(f) != 0 && beside_cap.count(g) != 0 ? 14 : 8) * unit);
+  });
 }
 
 }  // namespace hexact::samples

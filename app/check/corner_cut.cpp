@@ -4,6 +4,7 @@
 #include "surface.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace check {
 namespace {
@@ -37,16 +38,6 @@ Surface corners_cut(const Surface& s, const Edges& e) {
     r.start.push_back(static_cast<Index>(r.corner.size()));
   }
   return r;
-}
-
-// The half-edge of each edge that runs to the vertex with the larger number, ascending: the order of edges.
-std::vector<Index> edge_list(const Surface& s, const Edges& e) {
-  std::vector<Index> list;
-  list.reserve(s.corner.size() / 2);
-  for (Index h = 0; h < s.corner.size(); ++h) {
-    if (s.corner[h] < s.corner[e.next[h]]) list.push_back(h);
-  }
-  return list;
 }
 
 // A chamfer step: corner h of the old loops is vertex h, old facets keep their corners, the three cut edges of v meet
@@ -139,6 +130,30 @@ Plane in_frame(const Body& of, std::size_t i, const Body& frame) {
   return p;
 }
 
+// The half-edge of each edge that runs to the vertex with the larger number, ascending: the order of edges.
+std::vector<Index> edge_list(const Surface& s, const Edges& e) {
+  std::vector<Index> list;
+  list.reserve(s.corner.size() / 2);
+  for (Index h = 0; h < s.corner.size(); ++h) {
+    if (s.corner[h] < s.corner[e.next[h]]) list.push_back(h);
+  }
+  return list;
+}
+
+std::string replay(const Body& body, const Surface& first, std::vector<Address> address, Index first_level,
+                   const std::function<std::string(const Surface&, const Edges&)>& visit) {
+  Level level{first, {}, std::move(address)};
+  for (Index number = first_level; level.surface.facets() < body.planes.size(); ++number) {
+    const auto at = [](Index l) { return "level " + std::to_string(l) + ": "; };
+    if (std::string fault = convex_fault(body.planes, level.surface, level.edges); !fault.empty()) return at(number - 1) + fault;
+    if (visit) {
+      if (std::string fault = visit(level.surface, level.edges); !fault.empty()) return at(number) + fault;
+    }
+    if (std::string fault = advance(level, body, number); !fault.empty()) return at(number) + fault;
+  }
+  return difference(level, body);
+}
+
 // Whether the planes are those of `base` and then one per vertex or edge, level by level, each level before the last
 // convex, and the loops those of the last level. That the last level is convex is the claim `convex` of the body
 // itself: its vertices are the same points, since every plane around a vertex passes through it.
@@ -149,13 +164,7 @@ std::string corner_cut_fault(const Body& body, const Body& base, const std::stri
     if (base.surface.size(i) == 0) return facet_name(i) + " of " + name + ": has no loop";
     if (!same_half_space(in_frame(base, i, body), body.planes[i])) return facet_name(i) + ": is not the plane of " + name;
   }
-  Level level{base.surface, {}, base.address};
-  for (Index number = 1; level.surface.facets() < body.planes.size(); ++number) {
-    const auto at = [](Index l) { return "level " + std::to_string(l) + ": "; };
-    if (std::string fault = convex_fault(body.planes, level.surface, level.edges); !fault.empty()) return at(number - 1) + fault;
-    if (std::string fault = advance(level, body, number); !fault.empty()) return at(number) + fault;
-  }
-  return difference(level, body);
+  return replay(body, base.surface, base.address, 1, nullptr);
 }
 
 }  // namespace check

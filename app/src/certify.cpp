@@ -3,13 +3,17 @@
 #include "claim_report.hpp"
 #include "command.hpp"
 #include "hexact/exact/body_from_soup.hpp"
+#include "hexact/exact/smooth_limit.hpp"
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/kernel/errors.hpp"
 #ifdef HEXACT_WITH_NEF
 #include "hexact/nef/nef_solid.hpp"
 #endif
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <variant>
 
@@ -37,7 +41,7 @@ Request read_request(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
-    const bool alone = name == "closed" || name == "planar" || name == "trivalent" || name == "convex";
+    const bool alone = name == "closed" || name == "planar" || name == "trivalent" || name == "convex" || name == "smooth-limit";
     const bool about = name == "inside" || name == "tangent" || name == "corner-cut-of";
     if (!alone && !about) throw UsageError("there is no claim " + name);
     if (alone != (equals == std::string::npos) || equals + 1 == text.size()) {
@@ -75,7 +79,8 @@ Outcome refute_polygons(const PolygonSoup<Rational>& soup, const std::vector<Cla
     if (claim.name == "planar" && !holds && !shape.bent_facets.empty()) {
       witness = facet_name(shape.bent_facets.front()) + ": its corners do not lie in one plane";
     }
-    verdicts.push_back({claim_text(claim), holds ? Verdict::proved : Verdict::refuted, witness});
+    const Verdict failed = claim.name == "smooth-limit" ? Verdict::undecided : Verdict::refuted;
+    verdicts.push_back({claim_text(claim), holds ? Verdict::proved : failed, witness});
   }
   return claim_outcome(verdicts, shape.planar ? "" : "rounded decimals are not planar; exactness lives in .planes files");
 }
@@ -124,6 +129,19 @@ std::vector<ClaimVerdict> decide(const Certificate& certificate, const std::stri
   return verdicts;
 }
 
+/// Beside the verdict of smooth-limit, its numbers level by level.
+void report_smooth_limit(const Certificate& certificate, Outcome& outcome) {
+  if (std::none_of(certificate.claims.begin(), certificate.claims.end(), [](const Claim& c) { return c.name == "smooth-limit"; })) return;
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const SmoothLevel& l : smooth_limit(certificate.body).levels) {
+    rows.push_back({{"level", l.level}, {"largest_share", l.largest_share}, {"angle_bound_deg", l.angle_bound_deg},
+                    {"later_sine", std::isfinite(l.later_sine) ? nlohmann::ordered_json(l.later_sine) : nlohmann::ordered_json()}});
+    outcome.text += fmt::format("chamfer level {}: lifts take at most {:.4f} of what is left, angles at most {:.4f} degrees\n", l.level,
+                                l.largest_share, l.angle_bound_deg);
+  }
+  outcome.report["smooth_limit"] = rows;
+}
+
 Outcome certify(const CertifyOptions& options, const Common& common) {
   if (options.output == "-" && common.json) throw UsageError("--json and the certificate cannot both go to standard output");
   Request request = read_request(options.claims);
@@ -146,6 +164,7 @@ Outcome certify(const CertifyOptions& options, const Common& common) {
   const std::vector<ClaimVerdict> verdicts = decide(certificate, options.engine, common);
   Outcome outcome = claim_outcome(verdicts);
   common.work.report(0.9);
+  report_smooth_limit(certificate, outcome);
   if (outcome.exit_code == kDone && !options.output.empty()) io::write_certificate(options.output, certificate);
   if (options.output == "-") outcome.text.clear();
   return outcome;
@@ -159,7 +178,7 @@ void add_certify(const Registry& registry) {
   command->add_option("mesh", options->mesh, "Mesh, .planes file or certificate; - for standard input")->required();
   command->add_option("-o,--output", options->output, "Certificate to write when every claim is proved");
   command->add_option("--prove", options->claims,
-                      "Claims: closed, planar, trivalent, convex, inside=FILE, tangent=FILE, corner-cut-of=FILE "
+                      "Claims: closed, planar, trivalent, convex, inside=FILE, tangent=FILE, corner-cut-of=FILE, smooth-limit "
                       "(default: closed,planar,convex)")
       ->delimiter(',');
   command->add_option("--engine", options->engine, "Signs of planes, Boolean operations on Nef polyhedra, or both")

@@ -2,6 +2,7 @@
 #include "hexact/exact/certify.hpp"
 
 #include "cut_levels.hpp"
+#include "hexact/exact/smooth_limit.hpp"
 
 #include <algorithm>
 #include <map>
@@ -184,7 +185,7 @@ class Verifier {
         return facet_name(i) + ": is not the plane of body " + reference.name;
       }
     }
-    return detail::replay_fault(planes_, body_, base, progress);
+    return detail::replay_fault(planes_, body_, base, 1, [](const HoneycombMap&, detail::CutKind) {}, progress);
   }
 
   const Certificate& certificate_;
@@ -238,7 +239,13 @@ std::vector<ClaimVerdict> verify_over(const Certificate& certificate, const Prog
   for (const Claim& claim : certificate.claims) {
     const double before = static_cast<double>(out.size());
     progress.report(before / claims);
-    const Fault fault = verifier.decide(claim, progress.part(before / claims, (before + 1) / claims));
+    const ProgressPart part = progress.part(before / claims, (before + 1) / claims);
+    if (claim.name == "smooth-limit") {
+      const SmoothLimit limit = smooth_limit(certificate.body, part);
+      out.push_back({claim_text(claim), limit.verdict, limit.reason});
+      continue;
+    }
+    const Fault fault = verifier.decide(claim, part);
     out.push_back({claim_text(claim), fault.empty() ? Verdict::proved : Verdict::refuted, fault});
   }
   return out;
@@ -280,7 +287,8 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
   for (const NamedBody& b : out.bodies) expect_consistent(b.body);
   std::vector<std::string> done;
   for (const Claim& claim : out.claims) {
-    const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex";
+    const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex" ||
+                       claim.name == "smooth-limit";
     const bool about = claim.name == "inside" || claim.name == "tangent" || claim.name == "corner-cut-of";
     if (!alone && !about) throw InvalidInput("UnknownClaim", "there is no claim " + claim.name, claim_text(claim));
     if (alone != claim.reference.empty()) throw InvalidInput("MissingBody", alone ? "needs no body" : "needs a body", claim_text(claim));

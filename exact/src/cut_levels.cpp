@@ -51,6 +51,18 @@ CutLevel after_cut(CutLevel level, CutKind kind, std::uint32_t number) {
   return {kind == CutKind::corners ? level.map.refined() : edge_cut(level.map), std::move(level.addresses)};
 }
 
+Fault difference_fault(const CutLevel& level, const PlaneBody& body) {
+  const FacetLoops loops = level.map.loops();
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    const auto expected = loops[f], found = body.loops[f];
+    if (!std::equal(expected.begin(), expected.end(), found.begin(), found.end())) {
+      return facet_name(f) + ": its loop is not the one that the steps make";
+    }
+    if (!(body.addresses[f] == level.addresses[f])) return facet_name(f) + ": level or parent is not the one of its place";
+  }
+  return {};
+}
+
 Triples triples_of(const HoneycombMap& map) {
   Triples triples(map.vertex_count());
   for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {

@@ -38,6 +38,9 @@ struct NextCut {
 /// The level after the step that makes level `number`. Cost: O(H log H).
 [[nodiscard]] CutLevel after_cut(CutLevel level, CutKind kind, std::uint32_t number);
 
+/// Where loops and addresses of the body differ from those of the level; both have the same number of facets.
+[[nodiscard]] Fault difference_fault(const CutLevel& level, const PlaneBody& body);
+
 /// Each vertex of the map, in its order of facets.
 [[nodiscard]] Triples triples_of(const HoneycombMap& map);
 
@@ -69,13 +72,15 @@ Fault kept_fault(const Planes& planes, const HoneycombMap& map, const Triples& t
 
 /// Whether `body` comes from the trivalent body `base`, whose planes are the first of `planes` already, by cutting
 /// corners or edges level by level: the counts of planes, each level before the last convex with what it cuts off
-/// strictly beyond its planes, and loops and addresses of the last. That the last is convex is another claim.
-template <class Planes>
-Fault replay_fault(const Planes& planes, const PlaneBody& body, const PlaneBody& base, const ProgressPart& progress = {}) {
+/// strictly beyond its planes, and loops and addresses of the last. That the last is convex is another claim. The
+/// first step makes level `first`; `visit(map, kind)` sees each level before the last, when it has passed.
+template <class Planes, class Visit>
+Fault replay_fault(const Planes& planes, const PlaneBody& body, const PlaneBody& base, std::uint32_t first, const Visit& visit,
+                   const ProgressPart& progress = {}) {
   CutLevel level{HoneycombMap(base.loops, base.vertex_count()), base.addresses};
   level.addresses.resize(base.plane_count());
   if (body.addresses.size() != planes.size()) return "the planes have no levels";
-  for (std::uint32_t number = 1; level.map.facet_count() < planes.size(); ++number) {
+  for (std::uint32_t number = first; level.map.facet_count() < planes.size(); ++number) {
     progress.report(static_cast<double>(level.map.facet_count()) / static_cast<double>(planes.size()));
     const std::string at = "level " + std::to_string(number) + ": ";
     const NextCut next = next_cut(level.map, body.addresses, number);
@@ -89,17 +94,10 @@ Fault replay_fault(const Planes& planes, const PlaneBody& body, const PlaneBody&
       return "level " + std::to_string(number - 1) + ": " + fault;
     }
     if (Fault fault = kept_fault(planes, level.map, triples, *next.kind); !fault.empty()) return at + fault;
+    visit(level.map, *next.kind);
     level = after_cut(std::move(level), *next.kind, number);
   }
-  const FacetLoops loops = level.map.loops();
-  for (std::size_t f = 0; f < loops.size(); ++f) {
-    const auto expected = loops[f], found = body.loops[f];
-    if (!std::equal(expected.begin(), expected.end(), found.begin(), found.end())) {
-      return facet_name(f) + ": its loop is not the one that the steps make";
-    }
-    if (!(body.addresses[f] == level.addresses[f])) return facet_name(f) + ": level or parent is not the one of its place";
-  }
-  return {};
+  return difference_fault(level, body);
 }
 
 }  // namespace hexact::detail

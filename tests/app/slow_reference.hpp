@@ -346,24 +346,4 @@ bool corner_cut(const Solid<S>& s, const NamedBody& reference) {  // s is convex
   return level.loops == s.loops && level.addresses == s.addresses;
 }
 
-/// Whether each claim of the certificate holds, in order.
-template <class S>
-std::vector<bool> decide(const Certificate& c) {
-  const Solid<S> s = solid_of<S>(c.body);
-  const bool is_convex = convex(s);
-  const auto holds = [&](const Claim& claim) {
-    if (claim.name == "closed") return closed(s);
-    if (claim.name == "planar") return planar(s);
-    if (claim.name == "trivalent") return trivalent(s);
-    if (claim.name == "convex" || !is_convex) return is_convex;
-    const auto reference =
-        std::find_if(c.bodies.begin(), c.bodies.end(), [&](const NamedBody& b) { return b.name == claim.reference; });
-    if (claim.name == "corner-cut-of") return corner_cut(s, *reference);
-    return inside(c, s, *reference, claim.name == "tangent");
-  };
-  std::vector<bool> out;
-  for (const Claim& claim : c.claims) out.push_back(holds(claim));
-  return out;
-}
-
 }  // namespace hexact::slow

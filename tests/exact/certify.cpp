@@ -164,9 +164,9 @@ TEST_CASE("an edge cut is refuted where an end of an edge is kept, a level is mi
   std::swap(other_parent.addresses[20].parent, other_parent.addresses[30].parent);
   CHECK(reason(other_parent).find("facet 20: level or parent") == 0);
   // Lifts 0: every plane passes through its edge and cuts nothing; the level is no strictly convex solid.
-  CHECK_FALSE(reason(samples::chamfer_step(one, 1, [](std::size_t) { return Integer(0); })).empty());
+  CHECK_FALSE(reason(samples::chamfer_step(one, 1, [](std::size_t, std::size_t, std::size_t) { return Integer(0); })).empty());
   // A solid whose first level is the cube and whose edge planes are those of the second: the lift of one edge so large
   // that the facet beside it loses a side.
-  const PlaneBody steep = samples::chamfer_step(one, 1, [](std::size_t e) { return Integer(e == 3 ? 1 << 14 : 1 << 10); });
+  const PlaneBody steep = samples::chamfer_step(one, 1, [](std::size_t e, std::size_t, std::size_t) { return Integer(e == 3 ? 1 << 14 : 1 << 10); });
   CHECK_FALSE(reason(steep).empty());
 }
