@@ -23,6 +23,9 @@ struct SubdivideOptions {
   std::string all_levels;
   std::string color;
   std::string boundary = "dual";
+  std::string then;   ///< "chamfer:K" or empty
+  std::string lifts;  ///< empty: auto
+  std::string keep;   ///< empty: 0.5
 };
 
 /// The format of an output by `--to`, else by the ending of its path. Throws UsageError.
@@ -32,6 +35,7 @@ struct SubdivideOptions {
 
 // One function per family of schemes, each in a source file of its name.
 [[nodiscard]] Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& common);
+[[nodiscard]] Outcome subdivide_chamfer(const SubdivideOptions& options, const Common& common);
 [[nodiscard]] Outcome subdivide_midedge(const SubdivideOptions& options, const Common& common);
 
 }  // namespace hexact::app

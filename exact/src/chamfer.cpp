@@ -165,26 +165,24 @@ bool is_triangle(const Number& a, const Number& b, const Number& c) {
   return a < b + c && b < c + a && c < a + b;
 }
 
-void require_triangles(const HoneycombMap& map, const EdgeNumbering& edges, const IntegerLifts& lifts) {
+void require_triangles(const ChamferLevel& level, const EdgeNumbering& edges, const IntegerLifts& lifts) {
+  const HoneycombMap& map = level.surface.map;
   std::vector<Finding> findings;
+  const auto text = [&](std::uint32_t e) { return (Rational(lifts[e]) / lift_scale(level).unit).str(); };  // as in documents
   const auto is_positive = [&](std::uint32_t e) { return lifts.are_words() ? lifts.words[e] > 0 : lifts.integers[e].sign() > 0; };
   for (const std::uint32_t e : failures(map.edge_count(), is_positive)) {
-    findings.push_back({"LiftNotPositive", "its lift" + at_level(map) + " is " + lifts[e].str() + ", expected a positive number",
+    findings.push_back({"LiftNotPositive", "its lift" + at_level(map) + " is " + text(e) + ", expected a positive number",
                         edge_name(map, edges, e), {}});
   }
-  const auto at_vertex = [&](std::uint32_t v) {
-    const auto s = map.star(v);
-    return std::array<std::uint32_t, 3>{edges.edge[s[0]], edges.edge[s[1]], edges.edge[s[2]]};
-  };
   const auto holds = [&](std::uint32_t v) {
-    const auto e = at_vertex(v);
+    const auto& e = edges.at_vertex[v];
     if (lifts.are_words()) return is_triangle(lifts.words[e[0]], lifts.words[e[1]], lifts.words[e[2]]);
     return is_triangle(lifts.integers[e[0]], lifts.integers[e[1]], lifts.integers[e[2]]);
   };
   for (const std::uint32_t v : failures(map.vertex_count(), holds)) {
-    const auto e = at_vertex(v);
+    const auto& e = edges.at_vertex[v];
     findings.push_back({"TriangleInequality",
-                        "the lifts " + lifts[e[0]].str() + ", " + lifts[e[1]].str() + ", " + lifts[e[2]].str() + " of its edges" +
+                        "the lifts " + text(e[0]) + ", " + text(e[1]) + ", " + text(e[2]) + " of its edges" +
                             at_level(map) + " have to be smaller each than the sum of the other two",
                         "vertex " + std::to_string(v), {}});
   }
@@ -253,7 +251,13 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
     out.points[v] = found.point;
     out.errors[v] = found.error;
   };
+  // Planes and old points lie scattered in memory: those of elements to come are fetched ahead.
+  constexpr std::uint32_t kAhead = 12;
   const Numbers collapsed = failures(half_edges, [&](std::uint32_t h) {
+    if (h + kAhead < half_edges) {
+      __builtin_prefetch(&planes.narrow(cut(h + kAhead)));
+      __builtin_prefetch(&old.points[map.origin(h + kAhead)]);
+    }
     const std::array<std::uint32_t, 3> corner = {map.facet(h), cut(map.previous(h)), cut(h)};
     const detail::LocatedVertex found = detail::locate_vertex(planes, corner[0], corner[1], corner[2], old.points[map.origin(h)]);
     place(h, found);
@@ -268,9 +272,13 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
     }
     throw InvalidInput(std::move(findings));
   }
-  for_each(map.vertex_count(), [&](std::uint32_t v) {
-    const auto s = map.star(v);
-    place(half_edges + v, detail::locate_vertex(planes, cut(s[0]), cut(s[1]), cut(s[2]), old.points[v]));
+  const auto vertices = static_cast<std::uint32_t>(map.vertex_count());
+  for_each(vertices, [&](std::uint32_t v) {
+    if (v + kAhead < vertices) {
+      for (const std::uint32_t e : edges.at_vertex[v + kAhead]) __builtin_prefetch(&planes.narrow(facets + e));
+    }
+    const auto& e = edges.at_vertex[v];
+    place(half_edges + v, detail::locate_vertex(planes, facets + e[0], facets + e[1], facets + e[2], old.points[v]));
   });
   return out;
 }
@@ -278,17 +286,18 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
 }  // namespace
 
 ChamferLevel chamfer_step(ChamferLevel level, const LiftRule& rule) {
-  const EdgeNumbering edges = number_edges(level.surface.map);
+  EdgeNumbering edges = number_edges(level.surface.map);
   {
     const Lifts asked = rule(level, edges);
     const IntegerLifts lifts =
         std::visit([&](const auto& x) { return integer_lifts(x, level, level.surface.map.edge_count()); }, asked);
-    require_triangles(level.surface.map, edges, lifts);
+    require_triangles(level, edges, lifts);
     add_planes(level, edges, lifts);
   }
   Vertices vertices = locate_vertices(level.surface, level.surface.planes, edges);
   level.surface.points = std::move(vertices.points);
   level.surface.errors = std::move(vertices.errors);
+  edges.at_vertex = {};  // not needed for the map, whose making is the peak of memory
   level.surface.map = level.surface.map.refined_at_edges(edges);
   for (Integer& w : level.weights) w *= Integer(2);
   level.weights.push_back(Integer(1));
