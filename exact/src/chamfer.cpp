@@ -42,12 +42,13 @@ void for_each(std::size_t count, const Visit& visit) {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// The elements for which `test` fails, in order, at most kLimit.
-template <class Test>
-Numbers failures(std::size_t count, const Test& test) {
+/// The elements for which `test` fails, in order, at most kLimit. `prepare` is called for a range before its tests.
+template <class Test, class Prepare>
+Numbers failures(std::size_t count, const Test& test, const Prepare& prepare) {
   return tbb::parallel_deterministic_reduce(
       Range(0, static_cast<std::uint32_t>(count), kGrain), Numbers{},
       [&](const Range& range, Numbers found) {
+        prepare(range);
         for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
           if (!test(i) && found.size() < kLimit) found.push_back(i);
         }
@@ -57,6 +58,11 @@ Numbers failures(std::size_t count, const Test& test) {
         a.insert(a.end(), b.begin(), b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), kLimit - a.size())));
         return a;
       });
+}
+
+template <class Test>
+Numbers failures(std::size_t count, const Test& test) {
+  return failures(count, test, [](const Range&) {});
 }
 
 // ---------------------------------------------------------------------------------------------- integer lifts
@@ -231,9 +237,9 @@ struct Vertices {
 /// The corner of half-edge h is the point of its facet and of the planes that cut its edge and the edge before. It has
 /// to lie strictly inside the plane that cuts the next edge: that is condition 2 for the side of h.
 bool side_is_positive(const IntegerPlanes& planes, const std::array<std::uint32_t, 3>& corner, std::uint32_t far,
-                      const detail::LocatedVertex& at) {
-  if (at.error < std::numeric_limits<float>::infinity()) {
-    if (const int side = detail::side_by_point(planes, far, at.point, static_cast<double>(at.error)); side != 0) return side > 0;
+                      const Point3<double>& point, float error) {
+  if (error < std::numeric_limits<float>::infinity()) {
+    if (const int side = detail::side_by_point(planes, far, point, static_cast<double>(error)); side != 0) return side > 0;
   }
   return detail::sign_det4(planes, corner[0], corner[1], corner[2], far) > 0;
 }
@@ -243,26 +249,29 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
   const HoneycombMap& map = old.map;
   const auto facets = static_cast<std::uint32_t>(map.facet_count());
   const auto half_edges = static_cast<std::uint32_t>(map.half_edge_count());
+  const auto vertices = static_cast<std::uint32_t>(map.vertex_count());
   Vertices out;
-  out.points.resize(half_edges + map.vertex_count());
-  out.errors.resize(half_edges + map.vertex_count());
-  const auto cut = [&](std::uint32_t h) { return facets + edges.edge[h]; };
-  const auto place = [&](std::uint32_t v, const detail::LocatedVertex& found) {
-    out.points[v] = found.point;
-    out.errors[v] = found.error;
-  };
+  out.points.resize(half_edges + vertices);
+  out.errors.resize(half_edges + vertices);
   // Planes and old points lie scattered in memory: those of elements to come are fetched ahead.
-  constexpr std::uint32_t kAhead = 12;
-  const Numbers collapsed = failures(half_edges, [&](std::uint32_t h) {
+  constexpr std::uint32_t kAhead = 24;
+  const auto cut = [&](std::uint32_t h) { return facets + edges.edge[h]; };
+  const auto planes_of = [&](std::uint32_t h) -> std::array<std::uint32_t, 3> {
+    return {map.facet(h), cut(map.previous(h)), cut(h)};
+  };
+  const auto corner_of_half_edge = [&](std::uint32_t h) {
     if (h + kAhead < half_edges) {
       __builtin_prefetch(&planes.narrow(cut(h + kAhead)));
       __builtin_prefetch(&old.points[map.origin(h + kAhead)]);
     }
-    const std::array<std::uint32_t, 3> corner = {map.facet(h), cut(map.previous(h)), cut(h)};
-    const detail::LocatedVertex found = detail::locate_vertex(planes, corner[0], corner[1], corner[2], old.points[map.origin(h)]);
-    place(h, found);
-    return side_is_positive(planes, corner, cut(map.next(h)), found);
-  });
+    return detail::Corner{planes_of(h), old.points[map.origin(h)]};
+  };
+  const Numbers collapsed = failures(
+      half_edges,
+      [&](std::uint32_t h) { return side_is_positive(planes, planes_of(h), cut(map.next(h)), out.points[h], out.errors[h]); },
+      [&](const Range& range) {
+        detail::locate_range(planes, range.begin(), range.end(), corner_of_half_edge, out.points, out.errors);
+      });
   if (!collapsed.empty()) {
     std::vector<Finding> findings;
     for (const std::uint32_t h : collapsed) {
@@ -272,13 +281,16 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
     }
     throw InvalidInput(std::move(findings));
   }
-  const auto vertices = static_cast<std::uint32_t>(map.vertex_count());
-  for_each(vertices, [&](std::uint32_t v) {
+  const auto corner_of_vertex = [&](std::uint32_t i) {
+    const std::uint32_t v = i - half_edges;
     if (v + kAhead < vertices) {
       for (const std::uint32_t e : edges.at_vertex[v + kAhead]) __builtin_prefetch(&planes.narrow(facets + e));
     }
     const auto& e = edges.at_vertex[v];
-    place(half_edges + v, detail::locate_vertex(planes, facets + e[0], facets + e[1], facets + e[2], old.points[v]));
+    return detail::Corner{{facets + e[0], facets + e[1], facets + e[2]}, old.points[v]};
+  };
+  tbb::parallel_for(Range(half_edges, half_edges + vertices, kGrain), [&](const Range& range) {
+    detail::locate_range(planes, range.begin(), range.end(), corner_of_vertex, out.points, out.errors);
   });
   return out;
 }
