@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "refinement.hpp"
 
+#include "command.hpp"
 #include "hexact/exact/rounding.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -103,6 +106,36 @@ StepReport advance_level(DoubleLevel& level, const CutPolicy& policy, const Snap
   return {};
 }
 
+StepReport advance_level(ChamferLevel&, const CutPolicy&, const SnappedOptions&, const ProgressPart&) {
+  throw ContractViolation("a chamfer has no honeycomb steps");
+}
+
+const HoneycombMap& map_of(const ChamferLevel& level) { return level.surface.map; }
+template <class Level>
+const HoneycombMap& map_of(const Level& level) { return level.map; }
+
+/// Width of the widest coefficient of the planes from `first` on.
+std::size_t plane_bits(const IntegerPlanes& planes, std::size_t first) {
+  std::uint64_t words = 0;
+  std::size_t bits = 0;
+  for (std::size_t f = first; f < planes.size(); ++f) {
+    if (planes.is_narrow(f)) {
+      for (const std::int64_t x : planes.narrow(f)) words |= static_cast<std::uint64_t>(x < 0 ? -x : x);
+    } else {
+      const Plane<Integer>& p = planes.wide(f);
+      bits = std::max({bits, p.a.bit_length(), p.b.bit_length(), p.c.bit_length(), p.d.bit_length()});
+    }
+  }
+  return std::max<std::size_t>(bits, static_cast<std::size_t>(std::bit_width(words)));
+}
+
+HoneycombStatistics statistics_of(const SnappedLevel& level) {
+  HoneycombStatistics s = measure(level.map, level.points, unit_normals(level.planes));
+  const double unit_length = std::ldexp(1.0, static_cast<int>(level.scale));
+  for (double* x : {&s.longest_edge, &s.shortest_edge, &s.max_facet_diameter}) *x *= unit_length;
+  return s;
+}
+
 }  // namespace
 
 Arithmetic arithmetic_named(const std::string& name) {
@@ -111,6 +144,8 @@ Arithmetic arithmetic_named(const std::string& name) {
   if (name == "double") return Arithmetic::floating;
   return Arithmetic::snapped;
 }
+
+Refinement::Refinement(ChamferLevel start) : level_(std::move(start)) {}
 
 Refinement::Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bits)
     : level_(DoubleLevel{HoneycombMap(base.loops, base.vertex_count()), {}}) {
@@ -132,8 +167,33 @@ StepReport Refinement::advance(const PolicySchedule& schedule, const ProgressPar
   return report;
 }
 
+void Refinement::start_chamfer(std::span<const Rational> factors) {
+  if (std::holds_alternative<ChamferLevel>(level_)) return;
+  if (auto* level = std::get_if<SnappedLevel>(&level_)) {
+    level_ = chamfer_start(std::move(*level), factors);
+    return;
+  }
+  const auto* level = std::get_if<HoneycombLevel<Rational>>(&level_);
+  if (level == nullptr) throw UsageError("chamfer steps need planes over Q");
+  SnappedLevel surface = snapped_start(to_plane_body(*level));
+  surface.map = level->map;  // the same map, which knows its levels
+  level_ = chamfer_start(std::move(surface), factors);
+}
+
+StepReport Refinement::chamfer(const LiftRule& rule, const ProgressPart& progress) {
+  progress.check();
+  const auto start = Clock::now();
+  auto& level = std::get<ChamferLevel>(level_);
+  const std::size_t facets = level.surface.map.facet_count();
+  level = chamfer_step(std::move(level), rule);
+  StepReport report;
+  report.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  report.plane_bits = plane_bits(level.surface.planes, facets);
+  return report;
+}
+
 const HoneycombMap& Refinement::map() const {
-  return std::visit([](const auto& level) -> const HoneycombMap& { return level.map; }, level_);
+  return std::visit([](const auto& level) -> const HoneycombMap& { return map_of(level); }, level_);
 }
 
 PlaneBody Refinement::body() const {
@@ -141,6 +201,8 @@ PlaneBody Refinement::body() const {
       [](const auto& level) -> PlaneBody {
         if constexpr (std::is_same_v<std::decay_t<decltype(level)>, DoubleLevel>) {
           throw ContractViolation("a level in doubles has no exact body");
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(level)>, ChamferLevel>) {
+          return to_plane_body(level.surface);
         } else {
           return to_plane_body(level);
         }
@@ -160,6 +222,8 @@ std::vector<Point3<double>> Refinement::normals() const {
       [](const auto& level) -> std::vector<Point3<double>> {
         if constexpr (std::is_same_v<std::decay_t<decltype(level)>, DoubleLevel>) {
           return newell_normals(level.map, level.points);
+        } else if constexpr (std::is_same_v<std::decay_t<decltype(level)>, ChamferLevel>) {
+          return unit_normals(level.surface.planes);
         } else {
           return unit_normals(level.planes);
         }
@@ -171,12 +235,8 @@ HoneycombStatistics Refinement::statistics() const {
   if (const auto* level = std::get_if<DoubleLevel>(&level_)) {
     return measure(level->map, level->points, normals());
   }
-  if (const auto* level = std::get_if<SnappedLevel>(&level_)) {
-    HoneycombStatistics s = measure(level->map, level->points, normals());
-    const double unit_length = std::ldexp(1.0, static_cast<int>(level->scale));
-    for (double* x : {&s.longest_edge, &s.shortest_edge, &s.max_facet_diameter}) *x *= unit_length;
-    return s;
-  }
+  if (const auto* level = std::get_if<SnappedLevel>(&level_)) return statistics_of(*level);
+  if (const auto* level = std::get_if<ChamferLevel>(&level_)) return statistics_of(level->surface);
   return std::visit(
       [](const auto& level) -> HoneycombStatistics {
         if constexpr (requires { level.planes.front().a; }) {

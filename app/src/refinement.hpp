@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "hexact/exact/chamfer.hpp"
 #include "hexact/exact/honeycomb.hpp"
 #include "hexact/exact/plane_body.hpp"
 #include "hexact/exact/policies.hpp"
@@ -9,6 +10,7 @@
 #include "hexact/kernel/honeycomb_statistics.hpp"
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,18 +26,25 @@ struct StepReport {
   std::optional<double> least_delta;      ///< snapped: proven lower bound of delta
   std::optional<double> parameter_change; ///< snapped: proven upper bound
   std::optional<double> min_parameter;    ///< snapped: proven lower bound
+  std::optional<std::size_t> plane_bits;  ///< chamfer: width of the widest coefficient of a plane that the step made
   double seconds = 0;
 };
 
-/// One level of a honeycomb in any arithmetic, and how it is refined.
+/// One level of a honeycomb in any arithmetic, or of a chamfer, and how it is refined.
 class Refinement {
  public:
   /// Throws InvalidInput where the body does not suit the arithmetic.
   Refinement(const PlaneBody& base, Arithmetic arithmetic, int max_bits);
+  explicit Refinement(ChamferLevel start);
 
   /// Replaces the level by the next one, all exact conditions decided. Throws InvalidInput naming the violation;
   /// Cancelled within a level of exact numbers, else between levels.
   StepReport advance(const PolicySchedule& schedule, const ProgressPart& progress);
+  /// Makes the level one of a chamfer, unless it is. Throws what `chamfer_start` throws; UsageError for levels over other
+  /// numbers than Q.
+  void start_chamfer(std::span<const Rational> factors);
+  /// Replaces the level by the next one of a chamfer. Precondition: start_chamfer. Throws InvalidInput.
+  StepReport chamfer(const LiftRule& rule, const ProgressPart& progress);
 
   [[nodiscard]] const HoneycombMap& map() const;
   /// The level as an exact body. Precondition: the arithmetic is exact.
@@ -48,7 +57,7 @@ class Refinement {
   [[nodiscard]] bool is_exact() const { return !std::holds_alternative<DoubleLevel>(level_); }
 
  private:
-  std::variant<SnappedLevel, HoneycombLevel<Rational>, HoneycombLevel<QuadraticField>, DoubleLevel> level_;
+  std::variant<SnappedLevel, HoneycombLevel<Rational>, HoneycombLevel<QuadraticField>, DoubleLevel, ChamferLevel> level_;
   SnappedOptions snapped_;
 };
 

@@ -24,7 +24,10 @@ const std::map<std::string, Scheme>& schemes() {
   static const Scheme midedge = {subdivide_midedge, {"double", "rational"}, {"--boundary", "--keep-size", "--limit", "--limit-points"}};
   static const std::map<std::string, Scheme> table = {
       {"phs", {subdivide_honeycomb, {"snapped", "rational", "qsqrt5", "double"},
-               {"--parameters", "--bits", "--certificate", "--limit-points", "--stop-min-edge", "--stop-max-panel"}}},
+               {"--parameters", "--bits", "--certificate", "--limit-points", "--stop-min-edge", "--stop-max-panel", "--then",
+                "--lifts", "--keep"}}},
+      {"chamfer", {subdivide_chamfer, {"integer"},
+                   {"--certificate", "--limit-points", "--stop-min-edge", "--stop-max-panel", "--lifts", "--keep"}}},
       {"midedge", midedge},
       {"midedge6", midedge},
   };
@@ -85,8 +88,8 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 1000));
   command->add_option("--parameters", options->parameters,
                       "static, equal-u, constant=B, constant=3:2/5,4:1/4,6:0, random=SEED, tangent=sphere|ellipsoid|FILE, file=JSON");
-  command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with; phs: snapped, midedge: double if not given")
-      ->check(CLI::IsMember({"snapped", "rational", "qsqrt5", "double"}));
+  command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with; phs: snapped, chamfer: integer, midedge: double if not given")
+      ->check(CLI::IsMember({"snapped", "rational", "qsqrt5", "double", "integer"}));
   command->add_option("--bits", options->bits, "Upper bound on the bits of a snapped plane's normal")->check(CLI::Range(22, 1 << 20));
   command->add_option("--certificate", options->certificate, "Write a certificate of the result");
   command->add_option("--limit-points", options->limit_points, "JSON: the limit point of each facet (phs: a point near it), plane and bound");
@@ -98,6 +101,9 @@ void add_subdivide(const Registry& registry) {
       ->check(CLI::IsMember({"dual", "close", "drop"}));
   command->add_flag("--keep-size", options->keep_size, "Midedge: scale every level so that it keeps the volume of the input");
   command->add_flag("--limit", options->limit, "Midedge: write the vertices in their places on the limit surface (closed meshes)");
+  command->add_option("--then", options->then, "chamfer:K: K chamfer steps after the honeycomb steps");
+  command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default) or file=JSON");
+  command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 if not given; smooth: 1 - 2^-(k+2)");
   command->callback([registry, options, command] {
     registry.selected = [options, command, &common = registry.common] {
       settle(*command, *options);

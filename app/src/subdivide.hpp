@@ -25,6 +25,9 @@ struct SubdivideOptions {
   std::string boundary = "dual";
   bool keep_size = false;
   bool limit = false;
+  std::string then;   ///< "chamfer:K" or empty
+  std::string lifts;  ///< empty: auto
+  std::string keep;   ///< empty: 0.5
 };
 
 /// The format of an output by `--to`, else by the ending of its path. Throws UsageError.
@@ -34,6 +37,7 @@ struct SubdivideOptions {
 
 // One function per family of schemes, each in a source file of its name.
 [[nodiscard]] Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& common);
+[[nodiscard]] Outcome subdivide_chamfer(const SubdivideOptions& options, const Common& common);
 [[nodiscard]] Outcome subdivide_midedge(const SubdivideOptions& options, const Common& common);
 
 }  // namespace hexact::app

@@ -1,32 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "body_input.hpp"
-#include "geometry_output.hpp"
-#include "hexact/exact/body_from_soup.hpp"
-#include "hexact/exact/certify.hpp"
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/io/parameters_file.hpp"
-#include "limit_points_output.hpp"
-#include "refinement.hpp"
+#include "lift_choice.hpp"
+#include "refinement_run.hpp"
 #include "subdivide.hpp"
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-#include <memory>
-
 namespace hexact::app {
 namespace {
 
-void check_combination(const SubdivideOptions& options, const Common& common) {
-  if (common.json && options.output == "-") throw UsageError("--json and -o - both need standard output");
+void check_combination(const SubdivideOptions& options) {
   if (!options.certificate.empty() && options.arithmetic == "double") {
     throw UsageError("--certificate needs an exact arithmetic, not --arithmetic double");
   }
   if (options.arithmetic == "double" && output_format(options.output, options.to) == io::Format::planes) {
     throw UsageError("doubles have no exact planes; write a mesh, or use another --arithmetic");
   }
-  if (!options.all_levels.empty()) (void)level_path(options.all_levels, 0);
+  if (options.then.empty()) {
+    if (!options.lifts.empty() || !options.keep.empty()) throw UsageError("--lifts and --keep need --then chamfer:K, or --scheme chamfer");
+  } else if (options.arithmetic != "snapped" && options.arithmetic != "rational") {
+    throw UsageError("--then chamfer:K needs rational planes: --arithmetic snapped or rational");
+  }
 }
 
 /// The points of the body that a file describes, for planes tangent to their convex hull.
@@ -58,217 +53,25 @@ PolicySchedule schedule_of(const std::string& text, Arithmetic arithmetic, const
   }
 }
 
-/// Refuses work that would pass the bounds before it starts: phs (b.2), V' = 3V and F' = F + V.
-void check_bounds(const PlaneBody& body, unsigned levels, const Common& common) {
-  double vertices = static_cast<double>(body.vertex_count());
-  double facets = static_cast<double>(body.loops.size());
-  for (unsigned l = 0; l < levels; ++l) {
-    facets += vertices;
-    vertices *= 3;
-  }
-  const double half_edges = 3 * vertices;
-  if (half_edges >= 4294967295.0) {
-    throw ResourceLimit(fmt::format("level {} would have {:.0f} half-edges; at most 4294967294 are possible", levels, half_edges));
-  }
-  if (common.max_facets > 0 && facets > static_cast<double>(common.max_facets)) {
-    throw ResourceLimit(fmt::format("level {} would have {:.0f} facets, --max-facets allows {}", levels, facets, common.max_facets));
-  }
-  // Map, planes, points and loops of the last level, and the level before it.
-  constexpr double kBytesPerFacet = 320;
-  if (common.max_memory > 0 && facets * kBytesPerFacet > static_cast<double>(common.max_memory)) {
-    throw ResourceLimit(fmt::format("level {} would need about {:.0f} bytes, --max-memory allows {}", levels,
-                                    facets * kBytesPerFacet, common.max_memory));
-  }
-}
-
-nlohmann::ordered_json level_row(const Refinement& refinement, const StepReport& step, const HoneycombStatistics& s) {
-  const HoneycombMap& map = refinement.map();
-  nlohmann::ordered_json row;
-  row["level"] = map.level();
-  row["vertices"] = map.vertex_count();
-  row["edges"] = map.edge_count();
-  row["faces"] = map.facet_count();
-  row["seconds"] = step.seconds;
-  row["max_normal_angle_deg"] = s.max_normal_angle_deg;
-  row["median_normal_angle_deg"] = s.median_normal_angle_deg;
-  row["longest_edge"] = s.longest_edge;
-  row["shortest_edge"] = s.shortest_edge;
-  row["max_facet_diameter"] = s.max_facet_diameter;
-  row["delta"] = nullptr;
-  if (step.least_delta) row["delta"] = *step.least_delta;
-  if (!step.delta.empty()) row["delta"] = step.delta;
-  return row;
-}
-
-std::string text_row(const nlohmann::ordered_json& row) {
-  return fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12.5g} {:>12.5g} {:>8.3f}\n", row["level"].get<unsigned>(),
-                     row["vertices"].get<std::size_t>(), row["faces"].get<std::size_t>(),
-                     row["max_normal_angle_deg"].get<double>(), row["median_normal_angle_deg"].get<double>(),
-                     row["longest_edge"].get<double>(), row["shortest_edge"].get<double>(), row["seconds"].get<double>());
-}
-
-/// Writes a level; returns the proven bound of the rounding (0 for exact formats).
-double write_level(const Refinement& refinement, const std::string& path, io::Format format, const SubdivideOptions& options,
-                   const Common& common, const ProgressPart& progress) {
-  const OutputChoice output{path, format, {options.color, common.unit}};
-  if (refinement.is_exact()) return write_geometry(output, refinement.body(), progress).max_rounding;
-  const RoundedVertices vertices = refinement.vertices(io::coordinate_format(format));
-  const FacetLoops loops = refinement.map().loops();
-  io::write_mesh(path, format, {vertices.points, loops, addresses_of(refinement.map())}, output.mesh);
-  return vertices.max_rounding;
-}
-
-/// The policy of all further levels, where it is one of sizes and known.
-std::optional<SizePolicy> lasting_policy(const SubdivideOptions& options, const PolicySchedule& schedule, const HoneycombMap& map) {
-  if (options.parameters.starts_with("file=")) return std::nullopt;  // single levels may differ
-  const CutPolicy policy = schedule(map);
-  const auto* sizes = std::get_if<SizePolicy>(&policy);
-  return sizes != nullptr ? std::optional(*sizes) : std::nullopt;
-}
-
-/// The input in the frame of the result, whose first planes are its planes, exactly.
-PlaneBody reference_body(const PlaneBody& input, const PlaneBody& result) {
-  PlaneBody base;
-  base.field = result.field;
-  base.scale = result.scale;
-  base.shift = result.shift;
-  for (std::size_t f = 0; f < input.loops.size(); ++f) {
-    if (result.field == Field::rational) {
-      base.planes.push_back(result.planes[f]);
-    } else {
-      base.planes_sqrt5.push_back(result.planes_sqrt5[f]);
-    }
-    base.addresses.push_back({});
-  }
-  base.loops = input.loops;
-  base.triples = input.triples;
-  return base;
-}
-
-/// Every claim about a chain of honeycomb steps; the signs behind them were decided level by level.
-void write_chain_certificate(const BodyInput& input, PlaneBody result, const SubdivideOptions& options,
-                             const ProgressPart& progress) {
-  const std::string name = "input";
-  std::vector<Claim> claims = {{"closed", ""}, {"planar", ""}, {"trivalent", ""}, {"convex", ""},
-                               {"inside", name}, {"tangent", name}, {"corner-cut-of", name}};
-  std::vector<std::string> provenance = {
-      fmt::format("hexact {}", HEXACT_VERSION),
-      fmt::format("subdivide --scheme {} --levels {} --parameters {} --arithmetic {}", options.scheme, options.levels,
-                  options.parameters, options.arithmetic)};
-  PlaneBody base = reference_body(input.body, result);
-  const Certificate certificate =
-      make_certificate(std::move(result), std::move(claims), {{name, std::move(base)}}, std::move(provenance), progress);
-  io::write_certificate(options.certificate, certificate);
-}
-
-/// Where the stopping rules end the refinement.
-struct Stop {
-  bool keep_new = true;  ///< whether the level just made is the result
-  bool finished = false;
-  std::string reason;
-};
-
-Stop stopping(const SubdivideOptions& options, const HoneycombStatistics& s, unsigned level) {
-  if (options.stop_min_edge > 0 && s.shortest_edge < options.stop_min_edge) {
-    return {false, true, fmt::format("level {} would have an edge of {:.6g}, below --stop-min-edge", level, s.shortest_edge)};
-  }
-  if (options.stop_max_panel > 0 && s.max_facet_diameter <= options.stop_max_panel) {
-    return {true, true, fmt::format("level {} is the first with all panels within --stop-max-panel", level)};
-  }
-  return {};
-}
-
-struct Totals {
-  double change = 0;
-  double least = std::numeric_limits<double>::infinity();
-  bool has_change = false;
-  std::string stopped;
-};
-
-/// Each level costs three times the one before.
-ProgressPart share_of_level(const ProgressPart& progress, unsigned level, unsigned levels) {
-  const auto cost_before = [&](unsigned l) { return std::pow(3.0, static_cast<double>(l) - levels); };
-  return progress.part(level == 1 ? 0 : cost_before(level - 1), cost_before(level));
-}
-
-void refine(std::unique_ptr<Refinement>& current, const SubdivideOptions& options, const PolicySchedule& schedule,
-            const Common& common, nlohmann::ordered_json& rows, Totals& totals) {
-  const bool may_step_back = options.stop_min_edge > 0;
-  const ProgressPart progress = common.work.part(0.05, 0.7);
-  progress.report(0);
-  for (unsigned l = 1; l <= options.levels; ++l) {
-    std::unique_ptr<Refinement> before = may_step_back ? std::make_unique<Refinement>(*current) : nullptr;
-    const StepReport step = current->advance(schedule, share_of_level(progress, l, options.levels));
-    share_of_level(progress, l, options.levels).report(1);
-    const HoneycombStatistics s = current->statistics();
-    const Stop stop = stopping(options, s, l);
-    if (!stop.keep_new) {
-      current = std::move(before);
-      totals.stopped = stop.reason;
-      return;
-    }
-    rows.push_back(level_row(*current, step, s));
-    if (step.parameter_change) {
-      totals.has_change = true;
-      totals.change = std::max(totals.change, *step.parameter_change);
-      totals.least = std::min(totals.least, *step.min_parameter);
-    }
-    if (!options.all_levels.empty()) {
-      const std::string path = level_path(options.all_levels, l);
-      write_level(*current, path, output_format(path, options.to), options, common, {});
-    }
-    if (stop.finished) {
-      totals.stopped = stop.reason;
-      return;
-    }
-  }
-}
-
-std::string report_text(const nlohmann::ordered_json& report) {
-  std::string text = "level   vertices     facets  max angle     median      longest     shortest  seconds\n";
-  for (const auto& row : report["levels"]) text += text_row(row);
-  if (report.contains("stopped")) text += report["stopped"].get<std::string>() + "\n";
-  if (report["max_parameter_change"].is_number()) {
-    text += fmt::format("parameters realised within {:.3g} of those asked\n", report["max_parameter_change"].get<double>());
-  }
-  return text + fmt::format("written to {}\n", report["output"].get<std::string>());
-}
-
 }  // namespace
 
 Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& common) {
-  check_combination(options, common);
-  const io::Format format = output_format(options.output, options.to);
-  const BodyInput input = read_body(options.input, options.from);
-  if (auto findings = convex_trivalent_findings(input.body); !findings.empty()) throw InvalidInput(std::move(findings));
-  check_bounds(input.body, options.levels, common);
+  check_combination(options);
+  check_output(options, common);
+  RefinementPlan plan;
+  plan.honeycomb_levels = options.levels;
+  plan.chamfer_levels = chamfer_levels(options.then);
+  const BodyInput input = read_convex(options);
+  check_bounds(input.body, plan, common);
   const Arithmetic arithmetic = arithmetic_named(options.arithmetic);
-  const PolicySchedule schedule = schedule_of(options.parameters, arithmetic, input.body);
-
-  auto current = std::make_unique<Refinement>(input.body, arithmetic, options.bits);
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  rows.push_back(level_row(*current, {}, current->statistics()));
-  Totals totals;
-  refine(current, options, schedule, common, rows, totals);
-
-  Outcome outcome;
-  auto& report = outcome.report;
-  report["scheme"] = options.scheme;
-  report["arithmetic"] = options.arithmetic;
-  report["levels"] = rows;
-  report["output"] = options.output;
-  report["certificate"] = options.certificate.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.certificate);
-  if (!options.certificate.empty()) write_chain_certificate(input, current->body(), options, common.work.part(0.7, 0.8));
-  report["max_rounding"] = write_level(*current, options.output, format, options, common, common.work.part(0.8, 0.9));
-  report["max_parameter_change"] = totals.has_change ? nlohmann::ordered_json(totals.change) : nlohmann::ordered_json();
-  report["min_parameter"] = totals.has_change ? nlohmann::ordered_json(totals.least) : nlohmann::ordered_json();
-  if (!totals.stopped.empty()) report["stopped"] = totals.stopped;
-  if (!options.limit_points.empty()) {
-    write_limit_points(options.limit_points, *current, options, lasting_policy(options, schedule, current->map()),
-                       common.work.part(0.9, 1));
+  plan.schedule = schedule_of(options.parameters, arithmetic, input.body);
+  plan.provenance = fmt::format("--parameters {} --arithmetic {}", options.parameters, options.arithmetic);
+  plan.schedule_is_lasting = !options.parameters.starts_with("file=");  // single levels of a file may differ
+  if (plan.chamfer_levels > 0) {
+    plan.lifts = lift_choice(options, options.levels);
+    plan.provenance += fmt::format(" --then {} {}", options.then, lift_provenance(options));
   }
-  if (options.output != "-") outcome.text = report_text(report);
-  return outcome;
+  return run_refinement(input, Refinement(input.body, arithmetic, options.bits), plan, options, common);
 }
 
 }  // namespace hexact::app

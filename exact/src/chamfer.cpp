@@ -42,12 +42,13 @@ void for_each(std::size_t count, const Visit& visit) {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// The elements for which `test` fails, in order, at most kLimit.
-template <class Test>
-Numbers failures(std::size_t count, const Test& test) {
+/// The elements for which `test` fails, in order, at most kLimit. `prepare` is called for a range before its tests.
+template <class Test, class Prepare>
+Numbers failures(std::size_t count, const Test& test, const Prepare& prepare) {
   return tbb::parallel_deterministic_reduce(
       Range(0, static_cast<std::uint32_t>(count), kGrain), Numbers{},
       [&](const Range& range, Numbers found) {
+        prepare(range);
         for (std::uint32_t i = range.begin(); i != range.end(); ++i) {
           if (!test(i) && found.size() < kLimit) found.push_back(i);
         }
@@ -57,6 +58,11 @@ Numbers failures(std::size_t count, const Test& test) {
         a.insert(a.end(), b.begin(), b.begin() + static_cast<std::ptrdiff_t>(std::min(b.size(), kLimit - a.size())));
         return a;
       });
+}
+
+template <class Test>
+Numbers failures(std::size_t count, const Test& test) {
+  return failures(count, test, [](const Range&) {});
 }
 
 // ---------------------------------------------------------------------------------------------- integer lifts
@@ -165,26 +171,24 @@ bool is_triangle(const Number& a, const Number& b, const Number& c) {
   return a < b + c && b < c + a && c < a + b;
 }
 
-void require_triangles(const HoneycombMap& map, const EdgeNumbering& edges, const IntegerLifts& lifts) {
+void require_triangles(const ChamferLevel& level, const EdgeNumbering& edges, const IntegerLifts& lifts) {
+  const HoneycombMap& map = level.surface.map;
   std::vector<Finding> findings;
+  const auto text = [&](std::uint32_t e) { return (Rational(lifts[e]) / lift_scale(level).unit).str(); };  // as in documents
   const auto is_positive = [&](std::uint32_t e) { return lifts.are_words() ? lifts.words[e] > 0 : lifts.integers[e].sign() > 0; };
   for (const std::uint32_t e : failures(map.edge_count(), is_positive)) {
-    findings.push_back({"LiftNotPositive", "its lift" + at_level(map) + " is " + lifts[e].str() + ", expected a positive number",
+    findings.push_back({"LiftNotPositive", "its lift" + at_level(map) + " is " + text(e) + ", expected a positive number",
                         edge_name(map, edges, e), {}});
   }
-  const auto at_vertex = [&](std::uint32_t v) {
-    const auto s = map.star(v);
-    return std::array<std::uint32_t, 3>{edges.edge[s[0]], edges.edge[s[1]], edges.edge[s[2]]};
-  };
   const auto holds = [&](std::uint32_t v) {
-    const auto e = at_vertex(v);
+    const auto& e = edges.at_vertex[v];
     if (lifts.are_words()) return is_triangle(lifts.words[e[0]], lifts.words[e[1]], lifts.words[e[2]]);
     return is_triangle(lifts.integers[e[0]], lifts.integers[e[1]], lifts.integers[e[2]]);
   };
   for (const std::uint32_t v : failures(map.vertex_count(), holds)) {
-    const auto e = at_vertex(v);
+    const auto& e = edges.at_vertex[v];
     findings.push_back({"TriangleInequality",
-                        "the lifts " + lifts[e[0]].str() + ", " + lifts[e[1]].str() + ", " + lifts[e[2]].str() + " of its edges" +
+                        "the lifts " + text(e[0]) + ", " + text(e[1]) + ", " + text(e[2]) + " of its edges" +
                             at_level(map) + " have to be smaller each than the sum of the other two",
                         "vertex " + std::to_string(v), {}});
   }
@@ -233,9 +237,9 @@ struct Vertices {
 /// The corner of half-edge h is the point of its facet and of the planes that cut its edge and the edge before. It has
 /// to lie strictly inside the plane that cuts the next edge: that is condition 2 for the side of h.
 bool side_is_positive(const IntegerPlanes& planes, const std::array<std::uint32_t, 3>& corner, std::uint32_t far,
-                      const detail::LocatedVertex& at) {
-  if (at.error < std::numeric_limits<float>::infinity()) {
-    if (const int side = detail::side_by_point(planes, far, at.point, static_cast<double>(at.error)); side != 0) return side > 0;
+                      const Point3<double>& point, float error) {
+  if (error < std::numeric_limits<float>::infinity()) {
+    if (const int side = detail::side_by_point(planes, far, point, static_cast<double>(error)); side != 0) return side > 0;
   }
   return detail::sign_det4(planes, corner[0], corner[1], corner[2], far) > 0;
 }
@@ -245,20 +249,29 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
   const HoneycombMap& map = old.map;
   const auto facets = static_cast<std::uint32_t>(map.facet_count());
   const auto half_edges = static_cast<std::uint32_t>(map.half_edge_count());
+  const auto vertices = static_cast<std::uint32_t>(map.vertex_count());
   Vertices out;
-  out.points.resize(half_edges + map.vertex_count());
-  out.errors.resize(half_edges + map.vertex_count());
+  out.points.resize(half_edges + vertices);
+  out.errors.resize(half_edges + vertices);
+  // Planes and old points lie scattered in memory: those of elements to come are fetched ahead.
+  constexpr std::uint32_t kAhead = 24;
   const auto cut = [&](std::uint32_t h) { return facets + edges.edge[h]; };
-  const auto place = [&](std::uint32_t v, const detail::LocatedVertex& found) {
-    out.points[v] = found.point;
-    out.errors[v] = found.error;
+  const auto planes_of = [&](std::uint32_t h) -> std::array<std::uint32_t, 3> {
+    return {map.facet(h), cut(map.previous(h)), cut(h)};
   };
-  const Numbers collapsed = failures(half_edges, [&](std::uint32_t h) {
-    const std::array<std::uint32_t, 3> corner = {map.facet(h), cut(map.previous(h)), cut(h)};
-    const detail::LocatedVertex found = detail::locate_vertex(planes, corner[0], corner[1], corner[2], old.points[map.origin(h)]);
-    place(h, found);
-    return side_is_positive(planes, corner, cut(map.next(h)), found);
-  });
+  const auto corner_of_half_edge = [&](std::uint32_t h) {
+    if (h + kAhead < half_edges) {
+      __builtin_prefetch(&planes.narrow(cut(h + kAhead)));
+      __builtin_prefetch(&old.points[map.origin(h + kAhead)]);
+    }
+    return detail::Corner{planes_of(h), old.points[map.origin(h)]};
+  };
+  const Numbers collapsed = failures(
+      half_edges,
+      [&](std::uint32_t h) { return side_is_positive(planes, planes_of(h), cut(map.next(h)), out.points[h], out.errors[h]); },
+      [&](const Range& range) {
+        detail::locate_range(planes, range.begin(), range.end(), corner_of_half_edge, out.points, out.errors);
+      });
   if (!collapsed.empty()) {
     std::vector<Finding> findings;
     for (const std::uint32_t h : collapsed) {
@@ -268,9 +281,16 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
     }
     throw InvalidInput(std::move(findings));
   }
-  for_each(map.vertex_count(), [&](std::uint32_t v) {
-    const auto s = map.star(v);
-    place(half_edges + v, detail::locate_vertex(planes, cut(s[0]), cut(s[1]), cut(s[2]), old.points[v]));
+  const auto corner_of_vertex = [&](std::uint32_t i) {
+    const std::uint32_t v = i - half_edges;
+    if (v + kAhead < vertices) {
+      for (const std::uint32_t e : edges.at_vertex[v + kAhead]) __builtin_prefetch(&planes.narrow(facets + e));
+    }
+    const auto& e = edges.at_vertex[v];
+    return detail::Corner{{facets + e[0], facets + e[1], facets + e[2]}, old.points[v]};
+  };
+  tbb::parallel_for(Range(half_edges, half_edges + vertices, kGrain), [&](const Range& range) {
+    detail::locate_range(planes, range.begin(), range.end(), corner_of_vertex, out.points, out.errors);
   });
   return out;
 }
@@ -278,17 +298,18 @@ Vertices locate_vertices(const SnappedLevel& old, const IntegerPlanes& planes, c
 }  // namespace
 
 ChamferLevel chamfer_step(ChamferLevel level, const LiftRule& rule) {
-  const EdgeNumbering edges = number_edges(level.surface.map);
+  EdgeNumbering edges = number_edges(level.surface.map);
   {
     const Lifts asked = rule(level, edges);
     const IntegerLifts lifts =
         std::visit([&](const auto& x) { return integer_lifts(x, level, level.surface.map.edge_count()); }, asked);
-    require_triangles(level.surface.map, edges, lifts);
+    require_triangles(level, edges, lifts);
     add_planes(level, edges, lifts);
   }
   Vertices vertices = locate_vertices(level.surface, level.surface.planes, edges);
   level.surface.points = std::move(vertices.points);
   level.surface.errors = std::move(vertices.errors);
+  edges.at_vertex = {};  // not needed for the map, whose making is the peak of memory
   level.surface.map = level.surface.map.refined_at_edges(edges);
   for (Integer& w : level.weights) w *= Integer(2);
   level.weights.push_back(Integer(1));

@@ -225,6 +225,9 @@ ChamferLevel chamfer_start(SnappedLevel base, std::span<const Rational> factors)
 }
 
 ChamferLevel chamfer_start(const PlaneBody& body, std::span<const Rational> factors) {
+  if (body.field != Field::rational) {
+    throw InvalidInput("FieldNotRational", "a chamfer needs planes over Q; prepare --snap rounds those over Q(sqrt5)", "");
+  }
   return chamfer_start(snapped_start(body), factors);
 }
 

@@ -38,7 +38,8 @@ class Hull {
     // Coordinates carry a relative error u = 2^-53 and differences are at most 2L, so a determinant of differences
     // is wrong by less than 700·u·L³; 2^-43 L³ covers that.
     bound_ = 0x1p-43 * largest * largest * largest;
-    if (largest < 0x1p-300) bound_ = std::numeric_limits<double>::infinity();  // products might underflow
+    // Beyond these, products might underflow or overflow: exact signs only.
+    if (largest < 0x1p-300 || largest > 0x1p300) bound_ = std::numeric_limits<double>::infinity();
   }
 
   /// The triangles of the hull. `order` are the points to use, without repetition.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/kernel/edge_numbering.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -34,6 +35,14 @@ EdgeNumbering number_edges(const HoneycombMap& map) {
       numbers.edge[h] = numbers.edge[map.twin(h)] = e;
       numbers.half_edge[e++] = h;
     });
+  });
+  numbers.at_vertex.resize(map.vertex_count());
+  const auto vertices = static_cast<std::uint32_t>(map.vertex_count());
+  tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, vertices, kBlock), [&](const auto& range) {
+    for (std::uint32_t v = range.begin(); v != range.end(); ++v) {
+      const auto s = map.star(v);
+      numbers.at_vertex[v] = {numbers.edge[s[0]], numbers.edge[s[1]], numbers.edge[s[2]]};
+    }
   });
   return numbers;
 }

@@ -214,8 +214,15 @@ HoneycombMap HoneycombMap::refined_at_edges(const EdgeNumbering& edges) const {
     }
   });
   const auto count = static_cast<std::uint32_t>(edge_count());
+  constexpr std::uint32_t kAhead = 8;
   tbb::parallel_for(tbb::blocked_range<std::uint32_t>(0, count, 1 << 13), [&](const auto& range) {
     for (std::uint32_t e = range.begin(); e != range.end(); ++e) {
+      if (e + 2 * kAhead < count) {  // neighbours lie scattered in memory
+        __builtin_prefetch(&twin_[edges.half_edge[e + 2 * kAhead]]);
+        const std::uint32_t far = twin_[edges.half_edge[e + kAhead]];
+        __builtin_prefetch(&edges.edge[far]);
+        __builtin_prefetch(&origin_[far]);
+      }
       const std::uint32_t h = edges.half_edge[e], g = twin_[h], base = offset + 6 * e;
       const std::uint32_t after_h = next(h), after_g = next(g);
       const std::array<std::uint32_t, 6> corners = {offset + origin_[h], after_g, g, offset + origin_[g], after_h, h};

@@ -118,3 +118,8 @@ TEST_CASE("random solids have n facets, are simple and convex, and depend on the
   }
   CHECK_FALSE(random_solid(8, 1).points == random_solid(8, 2).points);
 }
+
+TEST_CASE("a random solid whose polar points have coordinates near 2^345 is convex", "[samples]") {
+  // Their determinants overflow doubles, which the hull's filter once took for a sign.
+  CHECK(convex_trivalent_findings(body_from_soup(random_solid(28, 418))).empty());
+}

@@ -2,6 +2,7 @@
 // Measures the snapped engine, signs of the certificate included, and the engine in doubles:
 // honeycomb_bench SHAPE LEVEL [snapped|double] [THREADS]
 #include "measure.hpp"
+#include "sample_bodies.hpp"
 
 #include "hexact/exact/snapped_honeycomb.hpp"
 #include "hexact/kernel/honeycomb_double.hpp"
@@ -17,41 +18,6 @@
 using namespace hexact;
 
 namespace {
-
-void add_loop(PlaneBody& body, std::initializer_list<int> loop) {
-  for (const int v : loop) body.loops.add_corner(make_id<VertexId>(static_cast<std::size_t>(v)));
-  body.loops.close_loop();
-}
-
-PlaneBody box(const std::array<IntegerPlanes::Narrow, 6>& planes) {
-  PlaneBody body;
-  for (const auto& p : planes) body.planes.push_back(p);
-  for (const auto& loop : {std::initializer_list<int>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
-    add_loop(body, loop);
-  }
-  body.addresses.resize(6);
-  body.triples.resize(8);
-  return body;
-}
-
-PlaneBody tetrahedron() {
-  PlaneBody body;
-  for (const auto& p : {IntegerPlanes::Narrow{-1, -1, -1, 1}, {-1, 1, 1, 1}, {1, -1, 1, 1}, {1, 1, -1, 1}}) {
-    body.planes.push_back(p);
-  }
-  for (const auto& loop : {std::initializer_list<int>{3, 2, 1}, {2, 3, 0}, {3, 1, 0}, {1, 2, 0}}) add_loop(body, loop);
-  body.addresses.resize(4);
-  body.triples.resize(4);
-  return body;
-}
-
-PlaneBody base_of(const std::string& shape) {
-  if (shape == "tetrahedron") return tetrahedron();
-  if (shape == "generic") {
-    return box({{{-41, 3, -7, 40}, {43, -5, 2, 44}, {4, -39, 6, 41}, {-3, 45, 8, 43}, {5, -2, -42, 39}, {-6, 7, 44, 45}}});
-  }
-  return box({{{-1, 0, 0, 1}, {1, 0, 0, 1}, {0, -1, 0, 1}, {0, 1, 0, 1}, {0, 0, -1, 1}, {0, 0, 1, 1}}});
-}
 
 /// Planes, map and all signs of the certificate of each level; returns the number of facets, 0 after a refusal.
 std::size_t run_snapped(SnappedLevel level, int levels) {
@@ -88,7 +54,7 @@ int main(int argc, char** argv) {
   const int asked = std::atoi(argv[argc - 1]);
   const int threads = argc > 3 && asked > 0 ? asked : static_cast<int>(std::thread::hardware_concurrency());
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  SnappedLevel start = snapped_start(base_of(shape));
+  SnappedLevel start = snapped_start(bench::base_of(shape));
   // The threads are started before: that is part of a process, not of its work.
   tbb::parallel_for(0, 64 * threads, [](int) { std::this_thread::yield(); });
   bench::Measure measure;

@@ -12,7 +12,7 @@ namespace hexact {
 /// Memory of at least `bytes` bytes, in large pages where the system has them and `bytes` is worth it: an array of a
 /// million facets then costs a few page faults instead of tens of thousands. Throws std::bad_alloc.
 [[nodiscard]] void* allocate_array(std::size_t bytes);
-void free_array(void* memory) noexcept;
+void free_array(void* memory, std::size_t bytes) noexcept;
 
 /// Leaves new elements of `resize` without a value: large arrays are then touched first by the threads that fill
 /// them, instead of being zeroed by one. Only for types that may live without a constructor having run.
@@ -29,7 +29,7 @@ class UninitializedAllocator : public std::allocator<T> {
   UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}  // NOLINT(google-explicit-constructor)
 
   [[nodiscard]] T* allocate(std::size_t n) { return static_cast<T*>(allocate_array(n * sizeof(T))); }
-  void deallocate(T* memory, std::size_t) noexcept { free_array(memory); }
+  void deallocate(T* memory, std::size_t n) noexcept { free_array(memory, n * sizeof(T)); }
 
   template <class U>
   void construct(U*) const noexcept {}
