@@ -2,6 +2,7 @@
 #include "hexact/exact/certify.hpp"
 
 #include "cut_levels.hpp"
+#include "hexact/exact/embedded.hpp"
 
 #include <algorithm>
 #include <map>
@@ -104,6 +105,7 @@ class Verifier {
     if (claim.name == "planar") return detail::planar_fault(planes_, body_.loops, body_.triples);
     if (claim.name == "trivalent") return detail::trivalent_fault(body_.loops, body_.vertex_count());
     if (claim.name == "convex") return convex();
+    if (claim.name == "embedded") return embedded_fault(body_);
     const auto named = std::find_if(certificate_.bodies.begin(), certificate_.bodies.end(),
                                     [&](const NamedBody& b) { return b.name == claim.reference; });
     if (named == certificate_.bodies.end()) return "the certificate has no body " + claim.reference;
@@ -280,7 +282,8 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
   for (const NamedBody& b : out.bodies) expect_consistent(b.body);
   std::vector<std::string> done;
   for (const Claim& claim : out.claims) {
-    const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex";
+    const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex" ||
+                       claim.name == "embedded";
     const bool about = claim.name == "inside" || claim.name == "tangent" || claim.name == "corner-cut-of";
     if (!alone && !about) throw InvalidInput("UnknownClaim", "there is no claim " + claim.name, claim_text(claim));
     if (alone != claim.reference.empty()) throw InvalidInput("MissingBody", alone ? "needs no body" : "needs a body", claim_text(claim));

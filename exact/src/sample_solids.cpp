@@ -4,6 +4,7 @@
 #include "facet_geometry.hpp"
 #include "hexact/exact/convex_hull.hpp"
 #include "hexact/exact/dual.hpp"
+#include "nonconvex_solids.hpp"
 #include "primitive_plane.hpp"
 #include "stored_solids.hpp"
 
@@ -159,6 +160,10 @@ const std::vector<Sample>& samples() {
       {{"pyramid", "over a square"}, [] { return ExactSoup(pyramid()); }},
       {{"random12", "a stored generic solid with 12 facets"}, [] { return ExactSoup(stored(kRandom12)); }},
       {{"random29", "a stored generic solid with 29 facets"}, [] { return ExactSoup(stored(kRandom29)); }},
+      {{"l-prism", "not convex: one concave edge"}, [] { return ExactSoup(l_prism()); }},
+      {{"u-prism", "not convex: two concave edges"}, [] { return ExactSoup(u_prism()); }},
+      {{"star-prism", "not convex: four concave edges"}, [] { return ExactSoup(star_prism()); }},
+      {{"frame", "a square block with a square hole: genus 1, 16 planar hexagons"}, [] { return ExactSoup(frame()); }},
       {{"torus", "60 hexagons that are not planar"}, [] { return ExactSoup(torus()); }},
       {{"saddle", "27 hexagons that are not planar, with a boundary"}, [] { return ExactSoup(saddle()); }},
   };
