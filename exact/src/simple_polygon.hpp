@@ -89,7 +89,7 @@ class SimplePolygon {
         const std::size_t i = std::min(order[x], order[y]), j = std::max(order[x], order[y]);
         if (j == i + 1 || (i == 0 && j == n - 1)) continue;
         if (edges_meet(at(i), at(i + 1), at(j), at(j + 1))) {
-          return "its edges " + edge_name(at(i), at(i + 1)) + " and " + edge_name(at(j), at(j + 1)) + " meet";
+          return edge_name(at(i), at(i + 1)) + " and " + edge_name(at(j), at(j + 1)) + " meet";
         }
       }
     }
