@@ -161,7 +161,6 @@ ChamferSurface chamfer_surface_start(const PlaneBody& body) {
   }
   std::vector<Finding> findings = topology_findings(body);
   require(findings);
-  if (Fault fault = planar_fault(body.planes, body.loops, body.triples); !fault.empty()) throw InvalidInput("NotOnPlane", fault, "");
   ChamferSurface surface;
   surface.body = body;
   surface.body.addresses.assign(body.planes.size(), {});
@@ -171,6 +170,10 @@ ChamferSurface chamfer_surface_start(const PlaneBody& body) {
   require(findings);
   set_triples(surface, e, findings);
   require(findings);
+  if (const Fault fault = planar_fault(body.planes, body.loops, body.triples); !fault.empty()) {
+    const std::size_t colon = fault.find(": ");
+    throw InvalidInput("NotOnPlane", fault.substr(colon + 2), fault.substr(0, colon));
+  }
   findings = facet_findings(surface.body);
   require(findings);
   find_signs(surface, e, findings);
