@@ -5,6 +5,7 @@
 #include "hexact/exact/certify.hpp"
 #include "hexact/exact/embedded.hpp"
 #include "hexact/exact/sample_solids.hpp"
+#include "hexact/exact/volume.hpp"
 #include "solid_samples.hpp"
 
 #include <catch2/catch.hpp>
@@ -187,6 +188,45 @@ struct Corner {
     return loose(polygons);
   }
 };
+
+/// Area of the section z = c, c not the height of a vertex: the traces of facets, outward normals on their right.
+Rational section_area(const PlaneBody& body, const std::vector<Point3<Rational>>& points, const Rational& c) {
+  Rational twice(0);
+  for (std::size_t f = 0; f < body.loops.size(); ++f) {
+    const auto loop = body.loops[f];
+    std::vector<std::array<Rational, 2>> cuts;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const auto &p = points[index(loop[i])], &q = points[index(loop[(i + 1) % loop.size()])];
+      if ((p.z < c) == (q.z < c)) continue;
+      const Rational t = (c - p.z) / (q.z - p.z);
+      cuts.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
+    }
+    const Plane<Integer> n = body.planes[f];
+    const auto along = [&](const std::array<Rational, 2>& x) { return Rational(n.a) * x[1] - Rational(n.b) * x[0]; };
+    std::sort(cuts.begin(), cuts.end(), [&](const auto& x, const auto& y) { return along(x) < along(y); });
+    for (std::size_t i = 0; i + 1 < cuts.size(); i += 2) twice += cuts[i][0] * cuts[i + 1][1] - cuts[i][1] * cuts[i + 1][0];
+  }
+  return twice / Rational(2);
+}
+
+/// The volume from sections: between heights of vertices the area is a polynomial of degree 2, and Milne's rule is exact.
+Rational sliced_volume(const PlaneBody& body) {
+  std::vector<Point3<Rational>> points;
+  std::vector<Rational> heights;
+  for (std::size_t v = 0; v < body.vertex_count(); ++v) {
+    points.push_back(rational_vertex(body, make_id<VertexId>(v)));
+    heights.push_back(points.back().z);
+  }
+  std::sort(heights.begin(), heights.end());
+  heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+  Rational volume(0);
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+    const Rational h = heights[i + 1] - heights[i];
+    const auto area = [&](long quarter) { return section_area(body, points, heights[i] + h * Rational(Integer(quarter), Integer(4))); };
+    volume += h * (Rational(2) * area(1) - area(2) + Rational(2) * area(3)) / Rational(3);
+  }
+  return volume;
+}
 
 bool is_embedded(const PlaneBody& body) { return facet_findings(body).empty() && !first_facet_contact(body); }
 
@@ -426,6 +466,15 @@ TEST_CASE("surfaces that cannot be cut are refused by element", "[chamfer-surfac
     t[2] = make_id<FacetId>(bare.planes.size() - 1);
   }
   CHECK_FALSE(first_refusal(bare).empty());
+}
+
+TEST_CASE("volumes agree with those by sections", "[chamfer-surface]") {
+  CHECK(sliced_volume(sample("l-prism")) == Rational(24));
+  for (const char* name : {"l-prism", "star-prism", "frame"}) {
+    INFO(name);
+    const ChamferSurface s = chamfer_surface_step(chamfer_surface_start(sample(name)));
+    CHECK(QuadraticField(sliced_volume(s.body)) == exact_volume(s.body));
+  }
 }
 
 TEST_CASE("on convex solids the rule and the step agree with the triangle and side conditions", "[chamfer-surface]") {
