@@ -115,7 +115,8 @@ void finish(const Scanner& in, Body& b) {
 Claim read_claim(Scanner& in) {
   const std::string word(in.word()), name = word.substr(0, word.find('='));
   const bool about = name == "inside" || name == "tangent" || name == "corner-cut-of";
-  if (!about && word != "closed" && word != "planar" && word != "trivalent" && word != "convex" && word != "smooth-limit") {
+  if (!about && word != "closed" && word != "planar" && word != "trivalent" && word != "convex" && word != "embedded" &&
+      word != "smooth-limit") {
     in.fail("unknown claim " + word);
   }
   if (about && word.size() < name.size() + 2) in.fail("claim " + name + " needs a body");

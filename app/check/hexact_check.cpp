@@ -3,6 +3,7 @@
 // no code with the library. Claims and their proofs are described in docs/certificates.md.
 #include "certificate_text.hpp"
 #include "corner_cut.hpp"
+#include "embedded.hpp"
 #include "rounded_mesh.hpp"
 #include "spectrum.hpp"
 #include "smooth_limit.hpp"
@@ -84,6 +85,7 @@ class Verifier {
     if (claim.name == "closed") return closed();
     if (claim.name == "planar") return convex().empty() ? "" : planar_fault(body.planes, body.surface);
     if (claim.name == "trivalent") return trivalent_fault(body.surface);
+    if (claim.name == "embedded") return embedded_fault(body);
     if (!convex().empty() || claim.name == "convex") return convex();
     if (claim.name == "smooth-limit") return smooth_limit_gap(body);
     const Body& reference = c_.bodies.at(claim.reference);

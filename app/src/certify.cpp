@@ -41,7 +41,8 @@ Request read_request(const std::vector<std::string>& texts) {
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     const std::string name = text.substr(0, equals);
-    const bool alone = name == "closed" || name == "planar" || name == "trivalent" || name == "convex" || name == "smooth-limit";
+    const bool alone = name == "closed" || name == "planar" || name == "trivalent" || name == "convex" || name == "embedded" ||
+                       name == "smooth-limit";
     const bool about = name == "inside" || name == "tangent" || name == "corner-cut-of";
     if (!alone && !about) throw UsageError("there is no claim " + name);
     if (alone != (equals == std::string::npos) || equals + 1 == text.size()) {
@@ -178,7 +179,7 @@ void add_certify(const Registry& registry) {
   command->add_option("mesh", options->mesh, "Mesh, .planes file or certificate; - for standard input")->required();
   command->add_option("-o,--output", options->output, "Certificate to write when every claim is proved");
   command->add_option("--prove", options->claims,
-                      "Claims: closed, planar, trivalent, convex, inside=FILE, tangent=FILE, corner-cut-of=FILE, smooth-limit "
+                      "Claims: closed, planar, trivalent, convex, embedded, inside=FILE, tangent=FILE, corner-cut-of=FILE, smooth-limit "
                       "(default: closed,planar,convex)")
       ->delimiter(',');
   command->add_option("--engine", options->engine, "Signs of planes, Boolean operations on Nef polyhedra, or both")

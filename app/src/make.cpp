@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.hpp"
 #include "exact_output.hpp"
+#include "hexact/exact/body_from_soup.hpp"
 #include "hexact/exact/sample_solids.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "hexact/kernel/mesh_topology.hpp"
@@ -23,7 +24,8 @@ struct MakeOptions {
 std::string list_of_samples() {
   std::string text = "Samples:\n  prism N            over an N-gon inscribed in a circle, with rational corners\n"
                      "  random N SEED      a generic solid with N facets, three at each vertex\n"
-                     "  grid M N           M x N quadrilaterals that are not planar, with a boundary\n";
+                     "  grid M N           M x N quadrilaterals that are not planar, with a boundary\n"
+                     "  planar-saddle      19 planar hexagons of a saddle, with a boundary\n";
   for (const SampleName& s : sample_names()) text += fmt::format("  {:<24} {}\n", s.name, s.description);
   return text;
 }
@@ -46,18 +48,29 @@ std::size_t count(const std::string& text, const char* what, std::uint64_t least
   return n;
 }
 
-ExactSoup sample(const MakeOptions& options, const Common& common) {
+/// A sample as polygons, and as planes where those say more.
+struct Sample {
+  ExactSoup soup;
+  std::optional<PlaneBody> body;
+};
+
+Sample sample(const MakeOptions& options, const Common& common) {
   const std::size_t given = options.parameters.size();
   const auto expect = [&](std::size_t n, const char* usage) {
     if (given != n) throw UsageError(fmt::format("usage: hexact make {} -o OUT", usage));
   };
   if (options.name == "prism") {
     expect(1, "prism N");
-    return prism(count(options.parameters[0], "N", 3, common));
+    return {prism(count(options.parameters[0], "N", 3, common)), {}};
   }
   if (options.name == "random") {
     expect(2, "random N SEED");
-    return random_solid(count(options.parameters[0], "N", 4, common), number(options.parameters[1], "SEED"));
+    return {random_solid(count(options.parameters[0], "N", 4, common), number(options.parameters[1], "SEED")), {}};
+  }
+  if (options.name == "planar-saddle") {
+    expect(0, "planar-saddle");
+    PlaneBody body = planar_saddle();
+    return {rational_soup(body), body};
   }
   if (options.name == "grid") {
     expect(2, "grid M N");
@@ -66,21 +79,21 @@ ExactSoup sample(const MakeOptions& options, const Common& common) {
     if (common.max_facets != 0 && m * n > common.max_facets) {
       throw ResourceLimit(fmt::format("{} facets would pass --max-facets {}", m * n, common.max_facets));
     }
-    return grid(m, n);
+    return {grid(m, n), {}};
   }
   for (const SampleName& s : sample_names()) {
     if (s.name != options.name) continue;
     expect(0, options.name.c_str());
-    return sample_solid(options.name);
+    return {sample_solid(options.name), {}};
   }
   throw UsageError("there is no sample " + options.name + "\n" + list_of_samples());
 }
 
 Outcome make(const MakeOptions& options, const Common& common) {
   const OutputChoice output = choose_output(options.output, options.to, common);
-  const ExactSoup soup = sample(options, common);
+  const auto [soup, body] = sample(options, common);
   common.work.report(0.1);
-  const WrittenGeometry written = write_exact(output, soup, std::nullopt, common.work);
+  const WrittenGeometry written = write_exact(output, soup, body, common.work);
   remark_rounding("make", written, common);
   const MeshTopology topology =
       std::visit([](const auto& s) { return analyse_topology(s.facets, s.points.size()); }, soup);

@@ -2,6 +2,7 @@
 #include "hexact/exact/certify.hpp"
 
 #include "cut_levels.hpp"
+#include "hexact/exact/embedded.hpp"
 #include "hexact/exact/smooth_limit.hpp"
 
 #include <algorithm>
@@ -105,6 +106,7 @@ class Verifier {
     if (claim.name == "planar") return detail::planar_fault(planes_, body_.loops, body_.triples);
     if (claim.name == "trivalent") return detail::trivalent_fault(body_.loops, body_.vertex_count());
     if (claim.name == "convex") return convex();
+    if (claim.name == "embedded") return embedded_fault(body_);
     const auto named = std::find_if(certificate_.bodies.begin(), certificate_.bodies.end(),
                                     [&](const NamedBody& b) { return b.name == claim.reference; });
     if (named == certificate_.bodies.end()) return "the certificate has no body " + claim.reference;
@@ -288,7 +290,7 @@ Certificate make_certificate(PlaneBody body, std::vector<Claim> claims, std::vec
   std::vector<std::string> done;
   for (const Claim& claim : out.claims) {
     const bool alone = claim.name == "closed" || claim.name == "planar" || claim.name == "trivalent" || claim.name == "convex" ||
-                       claim.name == "smooth-limit";
+                       claim.name == "embedded" || claim.name == "smooth-limit";
     const bool about = claim.name == "inside" || claim.name == "tangent" || claim.name == "corner-cut-of";
     if (!alone && !about) throw InvalidInput("UnknownClaim", "there is no claim " + claim.name, claim_text(claim));
     if (alone != claim.reference.empty()) throw InvalidInput("MissingBody", alone ? "needs no body" : "needs a body", claim_text(claim));

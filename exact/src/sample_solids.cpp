@@ -4,6 +4,7 @@
 #include "facet_geometry.hpp"
 #include "hexact/exact/convex_hull.hpp"
 #include "hexact/exact/dual.hpp"
+#include "nonconvex_solids.hpp"
 #include "primitive_plane.hpp"
 #include "stored_solids.hpp"
 
@@ -204,6 +205,10 @@ const std::vector<Sample>& samples() {
        [] { return ExactSoup(seven_cubes()); }},
       {{"seven-cubes-corner", "2 x 2 x 2 cubes without one: 26 vertices, 24 squares, not convex"},
        [] { return ExactSoup(seven_cubes_corner()); }},
+      {{"l-prism", "not convex: one concave edge"}, [] { return ExactSoup(l_prism()); }},
+      {{"u-prism", "not convex: two concave edges"}, [] { return ExactSoup(u_prism()); }},
+      {{"star-prism", "not convex: four concave edges"}, [] { return ExactSoup(star_prism()); }},
+      {{"frame", "a square block with a square hole: genus 1, 16 planar hexagons"}, [] { return ExactSoup(frame()); }},
       {{"torus", "60 hexagons that are not planar"}, [] { return ExactSoup(torus()); }},
       {{"saddle", "27 hexagons that are not planar, with a boundary"}, [] { return ExactSoup(saddle()); }},
   };

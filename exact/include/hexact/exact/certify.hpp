@@ -24,6 +24,7 @@ namespace hexact {
 /// closed: one connected oriented manifold surface without boundary. planar: every vertex is the one point of its
 /// three defining planes and lies on all its facets. trivalent: three facets at every vertex. convex: closed,
 /// planar, χ = 2, every edge and corner strictly convex, facets and vertex stars turn once (van Heijenoort 1952).
+/// embedded: oriented manifold, simple facets that meet in common vertices and edges only, normals outward.
 /// inside, tangent, corner-cut-of: as in the documentation of certificates; corner-cut-of replays the levels.
 /// smooth-limit: see smooth_limit; proved or undecided.
 /// A claim whose proof is missing from the certificate is refuted, the missing part being the witness.

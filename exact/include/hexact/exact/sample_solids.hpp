@@ -32,6 +32,11 @@ struct SampleName {
 /// Precondition: m, n >= 1, m · n <= 1000000.
 [[nodiscard]] PolygonSoup<Rational> grid(std::size_t m, std::size_t n);
 
+/// Part of a saddle with exactly planar facets: 19 hexagons, each with two reflex corners, on tangent planes of
+/// z = (x² − y²)/16 at the points of a lattice; three planes meet at every vertex. It has a boundary, whose vertices lie
+/// on planes without facets: the tangent planes at the 18 points around.
+[[nodiscard]] PlaneBody planar_saddle();
+
 /// A convex polyhedron with exactly n facets and three at every vertex: the intersection of n half-spaces with small
 /// integers, about tangent to the sphere of radius 100 around the origin, drawn with splitmix64 from `seed`. The same
 /// everywhere: only integers decide. Facets are ordered as drawn.
