@@ -96,7 +96,7 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--stop-min-edge", options->stop_min_edge, "End before an edge gets shorter than this")->check(CLI::PositiveNumber);
   command->add_option("--stop-max-panel", options->stop_max_panel, "End when all facets are at most this wide")->check(CLI::PositiveNumber);
   command->add_option("--all-levels", options->all_levels, "Write every level; %d stands for the level");
-  command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")->check(CLI::IsMember({"level", "angle"}));
+  command->add_option("--color", options->color, "Colour facets by level, angle or reflection lines (PLY, OFF)")->check(CLI::IsMember({"level", "angle", "reflection"}));
   command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
       ->check(CLI::IsMember({"dual", "close", "drop"}));
   command->add_option("--then", options->then, "chamfer:K: K chamfer steps after the honeycomb steps");

@@ -100,11 +100,17 @@ struct BarrierProgramme::Hessian {
     }
   }
 
+  /// Where rounding spoils definiteness, the diagonal is raised a little: this changes the direction of a step, not the
+  /// minimum that the steps lead to.
   void factorize() {
-    factors.factorize(matrix);
-    if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > 0)) {
-      throw NumericalFailure("fair lifts: the matrix of a Newton step is not positive definite to working precision");
+    for (const double raise : {0.0, 1e-12, 1e-10, 1e-8}) {
+      if (raise > 0) {
+        for (int column = 0; column < matrix.cols(); ++column) matrix.valuePtr()[matrix.outerIndexPtr()[column]] *= 1 + raise;
+      }
+      factors.factorize(matrix);
+      if (factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 0) return;
     }
+    throw NumericalFailure("fair lifts: the matrix of a Newton step is not positive definite to working precision");
   }
 };
 

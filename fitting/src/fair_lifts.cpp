@@ -56,7 +56,7 @@ class FairProgramme {
       : map_(level.surface.map), options_(options), keep_(options.keep(map_.level())), edges_(detail::new_edges(level, edges)),
         ratios_(facet_ratios(map_, edges_)), programme_(map_.edge_count()) {
     HEXACT_EXPECTS(keep_ > 0 && keep_ < 1);
-    HEXACT_EXPECTS(options.triangle > 0.5 && options.triangle < 1);
+    HEXACT_EXPECTS(options.triangle > 0.95 && options.triangle < 1);
     const Lifts proposed = automatic_lifts(constant_keep(keep_))(level, edges);
     const auto& lengths = std::get<ProposedLifts>(proposed).lengths;
     scale_.assign(lengths.begin(), lengths.end());
@@ -95,11 +95,19 @@ class FairProgramme {
     return out;
   }
 
+  /// A side that is short for its angle keeps more than the fraction that is asked. Its angle is halved, so that half of
+  /// the length is enough for s/θ not to fall; sides below half the ratio of their facet come to that by and by.
+  [[nodiscard]] double kept_at_least(const NewEdge& side, std::uint32_t f) const {
+    const double ratio = side.length.base / (2 * side.angle);
+    return std::max(keep_, std::min(0.5, keep_ * ratios_[f] / (2 * ratio)));
+  }
+
   /// Sides keep their fraction, lifts their distance to the triangle inequalities.
   void add_margins() {
-    for (const NewEdge& side : edges_.sides) {
+    for (std::uint32_t h = 0; h < edges_.sides.size(); ++h) {
+      const NewEdge& side = edges_.sides[h];
       SparseForm form = scaled(side.length, 1 / side.length.base);
-      form.base -= keep_;
+      form.base -= kept_at_least(side, map_.facet(h));
       programme_.add_logarithm(form, kMarginWeight);
     }
     for (const NewEdge& spoke : edges_.spokes) {

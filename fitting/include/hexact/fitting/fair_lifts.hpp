@@ -4,8 +4,6 @@
 #include "hexact/exact/chamfer.hpp"
 #include "hexact/exact/lift_rules.hpp"
 
-#include <array>
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,10 +26,12 @@ enum class FairObjective {
 
 struct FairOptions {
   FairObjective objective = FairObjective::product;
-  /// Fraction of its length that every side of every facet keeps at least, 0 < keep < 1.
+  /// Fraction of its length that every side of every facet keeps at least, 0 < keep < 1. A side whose s/θ is below half
+  /// of its facet's keeps more, at most one half: its s/θ then falls no further.
   KeptFraction keep = constant_keep(0.25);
-  /// No lift exceeds this share of the sum of the other two at either end, 1/2 < share < 1; the condition is < 1.
-  double triangle = 0.95;
+  /// No lift exceeds this share of the sum of the other two at either end, 0.95 < share < 1 (what the
+  /// automatic lifts may reach to start from); the condition is < 1.
+  double triangle = 0.97;
   /// Most Newton steps of one level; more are a NumericalFailure.
   int most_steps = 400;
 };
@@ -39,12 +39,13 @@ struct FairOptions {
 /// Lifts by a convex programme over the conditions of the chamfer step, which are linear in the lifts: triangle
 /// inequalities and kept sides with the margins of `options`. Solved by Newton steps on a barrier, from lifts of
 /// `automatic_lifts`, with a sparse Cholesky factorization (Eigen) of one unknown for each edge. The optimum is unique
-/// but for `even` and `ratio`, whose barrier picks the centre of the optimal set: lifts have the symmetry of the level, up
-/// to rounding. One thread; the result does not depend on the number of threads.
+/// (of `ratio`, the point of the central path within 0.1 % of the best value): lifts have the symmetry of the level, up
+/// to rounding. `even` keeps lengths from vanishing by a tenth of the logarithms of `product`. One thread; the result does
+/// not depend on the number of threads.
 /// Floating point proposes, `chamfer_step` decides.
 ///
 /// The rule throws NumericalFailure where the programme is not solved; it never falls back to other lifts.
-/// Cost: about ten factorizations (ratio: about sixty) of a sparse matrix with E rows and 13 entries in each; measured
+/// Cost: about ten factorizations (ratio: about sixty) of a sparse matrix with E rows and about nine entries in each; measured
 /// times in docs/chamfer-lifts.md.
 [[nodiscard]] LiftRule fair_lifts(FairOptions options = {});
 
