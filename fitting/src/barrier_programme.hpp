@@ -42,7 +42,9 @@ class BarrierProgramme {
   };
   /// Whether all logarithms and inverses are defined.
   [[nodiscard]] bool is_inside(const Point& at) const;
-  /// The minimum, from a point inside; `price` is t. Newton steps are counted in `steps()`.
+  /// The sum of all terms and −t·y; infinite outside. `price` is t.
+  [[nodiscard]] double value(const Point& at, double price) const;
+  /// The minimum, from a point inside. Newton steps are counted in `steps()`.
   /// Throws NumericalFailure when that takes more than `most_steps` steps in all, or a factorization fails.
   [[nodiscard]] Point minimise(Point start, double price, int most_steps);
   [[nodiscard]] int steps() const noexcept { return steps_; }
@@ -61,7 +63,6 @@ class BarrierProgramme {
     double decrement = 0;  ///< squared length of the step in the norm of the Hessian
   };
 
-  [[nodiscard]] double value(const Point& at, double price) const;
   [[nodiscard]] Direction newton_step(const Point& at, double price);
   [[nodiscard]] double longest_step(const Point& at, const Point& step) const;
 

@@ -72,6 +72,13 @@ class FairProgramme {
     }
   }
 
+  [[nodiscard]] double cost(const ProposedLifts& lifts) const {
+    BarrierProgramme::Point at{std::vector<double>(scale_.size()), 0};
+    for (std::size_t e = 0; e < scale_.size(); ++e) at.x[e] = lifts.lengths[e] / scale_[e];
+    if (!programme_.is_inside(at)) return std::numeric_limits<double>::infinity();
+    return options_.objective == FairObjective::ratio ? -unit_ * least_ratio(at.x) : programme_.value(at, 0);
+  }
+
   ProposedLifts solve() {
     BarrierProgramme::Point at{std::vector<double>(scale_.size(), 0.5), 0};
     if (options_.objective == FairObjective::ratio) at.y = 0.5 * least_ratio(at.x);
@@ -209,29 +216,28 @@ LiftRule fair_lifts(FairOptions options) {
   };
 }
 
+double fair_cost(const ChamferLevel& level, const EdgeNumbering& edges, const ProposedLifts& lifts, const FairOptions& options) {
+  HEXACT_EXPECTS(lifts.lengths.size() == level.surface.map.edge_count());
+  return FairProgramme(level, edges, options).cost(lifts);
+}
+
 LiftQuality lift_quality(const ChamferLevel& level, const EdgeNumbering& edges, const ProposedLifts& lifts) {
   const HoneycombMap& map = level.surface.map;
   HEXACT_EXPECTS(lifts.lengths.size() == map.edge_count());
   const std::vector<double> values(lifts.lengths.begin(), lifts.lengths.end());
   const NewEdges parts = detail::new_edges(level, edges);
-  const std::vector<double> ratios = facet_ratios(map, parts);
   LiftQuality q;
   q.least_ratio = q.least_kept = std::numeric_limits<double>::infinity();
-  const auto ratio = [&](const NewEdge& edge) { return edge.length.value(values) / edge.angle; };
   for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
     for (const NewEdge* edge : {&parts.sides[h], &parts.spokes[h]}) {
-      q.least_ratio = std::min(q.least_ratio, ratio(*edge));
-      q.greatest_ratio = std::max(q.greatest_ratio, ratio(*edge));
-      q.log_product += std::log(edge->length.value(values));
-      q.harmonic += ratios[map.facet(h)] / ratio(*edge);
+      const double ratio = edge->length.value(values) / edge->angle;
+      q.least_ratio = std::min(q.least_ratio, ratio);
+      q.greatest_ratio = std::max(q.greatest_ratio, ratio);
     }
     q.least_kept = std::min(q.least_kept, parts.sides[h].length.value(values) / parts.sides[h].length.base);
     const auto& e = parts.spokes[h].length.edge;
     q.most_triangle = std::max(q.most_triangle, values[e[2]] / (values[e[0]] + values[e[1]]));
   }
-  for_each_pair(map, parts, [&](const NewEdge& a, const NewEdge& b, std::uint32_t f) {
-    q.unevenness += std::pow((ratio(a) - ratio(b)) / ratios[f], 2);
-  });
   return q;
 }
 

@@ -49,12 +49,15 @@ struct FairOptions {
 /// times in docs/chamfer-lifts.md.
 [[nodiscard]] LiftRule fair_lifts(FairOptions options = {});
 
+/// What the programme of `options.objective` makes as small as it can: its sum with the barriers of the margins, or for
+/// `ratio` minus the smallest s_i / θ_i. Infinite where the lifts do not keep the margins.
+/// Precondition: one length for each edge.
+[[nodiscard]] double fair_cost(const ChamferLevel& level, const EdgeNumbering& edges, const ProposedLifts& lifts,
+                               const FairOptions& options = {});
+
 /// What a choice of lifts makes of a level, in floating point.
 struct LiftQuality {
   double least_ratio = 0, greatest_ratio = 0;  ///< of s_i / θ_i
-  double log_product = 0;                      ///< Σ log s_i
-  double harmonic = 0;                         ///< Σ θ_i / s_i
-  double unevenness = 0;                       ///< Σ of the squared differences of `even`
   double least_kept = 0;                       ///< smallest part that a side keeps
   double most_triangle = 0;                    ///< largest share of a lift in the sum of the other two at a vertex
 };
