@@ -70,9 +70,9 @@ Colour ramp(double t) {
 }
 
 /// Where the viewer stands whose reflection lines are drawn: where examples/render puts its camera.
-constexpr Vector kViewer{-0.4755, -0.8236, 0.3090};
+constexpr Vector kViewer{0.4755, -0.8236, 0.3090};
 /// Bright lines that stand vertically around the body, far away.
-constexpr double kLines = 20;
+constexpr double kLines = 12;
 
 /// How near the facet's mirror image of the viewer is to one of the lines, 0 between two lines to 1 on one.
 double reflected_light(const Vector& n) {
