@@ -100,8 +100,8 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
       ->check(CLI::IsMember({"dual", "close", "drop"}));
   command->add_option("--then", options->then, "chamfer:K: K chamfer steps after the honeycomb steps");
-  command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default) or file=JSON");
-  command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 if not given; smooth: 1 - 2^-(k+2)");
+  command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default), file=JSON, fair, or fair=product|harmonic|even|ratio");
+  command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 (fair: 0.25) if not given; smooth: 1 - 2^-(k+2)");
   command->callback([registry, options, command] {
     registry.selected = [options, command, &common = registry.common] {
       settle(*command, *options);
