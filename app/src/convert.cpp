@@ -65,8 +65,8 @@ void add_convert(const Registry& registry) {
   command->add_option("--from", options->from, "Format of the input: obj, off, ply, stl, planes, cert");
   command->add_option("--to", options->to,
                       "Format of the output: obj, off, ply, ply-ascii, ply-float, stl, stl-ascii, planes, scad");
-  command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")
-      ->check(CLI::IsMember({"level", "angle"}));
+  command->add_option("--color", options->color, "Colour facets by level, angle or reflection lines (PLY, OFF)")
+      ->check(CLI::IsMember({"level", "angle", "reflection"}));
   command->callback([options, registry] {
     registry.selected = [options, &common = registry.common] { return convert(*options, common); };
   });

@@ -96,14 +96,14 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--stop-min-edge", options->stop_min_edge, "End before an edge gets shorter than this")->check(CLI::PositiveNumber);
   command->add_option("--stop-max-panel", options->stop_max_panel, "End when all facets are at most this wide")->check(CLI::PositiveNumber);
   command->add_option("--all-levels", options->all_levels, "Write every level; %d stands for the level");
-  command->add_option("--color", options->color, "Colour facets by level or angle (PLY, OFF)")->check(CLI::IsMember({"level", "angle"}));
+  command->add_option("--color", options->color, "Colour facets by level, angle or reflection lines (PLY, OFF)")->check(CLI::IsMember({"level", "angle", "reflection"}));
   command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
       ->check(CLI::IsMember({"dual", "close", "drop"}));
   command->add_flag("--keep-size", options->keep_size, "Midedge: scale every level so that it keeps the volume of the input");
   command->add_flag("--limit", options->limit, "Midedge: write the vertices in their places on the limit surface (closed meshes)");
   command->add_option("--then", options->then, "chamfer:K: K chamfer steps after the honeycomb steps");
-  command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default) or file=JSON");
-  command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 if not given; smooth: 1 - 2^-(k+2)");
+  command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default), file=JSON, fair, or fair=product|harmonic|even|ratio");
+  command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 (fair: 0.25) if not given; smooth: 1 - 2^-(k+2)");
   command->callback([registry, options, command] {
     registry.selected = [options, command, &common = registry.common] {
       settle(*command, *options);

@@ -69,10 +69,38 @@ Colour ramp(double t) {
   return {channel(0), channel(1), channel(2)};
 }
 
+/// Where the viewer stands whose reflection lines are drawn: where examples/render puts its camera.
+constexpr Vector kViewer{0.4755, -0.8236, 0.3090};
+/// Bright lines that stand vertically around the body, far away.
+constexpr double kLines = 12;
+
+/// How near the facet's mirror image of the viewer is to one of the lines, 0 between two lines to 1 on one.
+double reflected_light(const Vector& n) {
+  const double along = n[0] * kViewer[0] + n[1] * kViewer[1] + n[2] * kViewer[2];
+  const double x = 2 * along * n[0] - kViewer[0], y = 2 * along * n[1] - kViewer[1];
+  return 0.5 + 0.5 * std::cos(kLines * std::atan2(y, x));
+}
+
+/// Reflection lines: of all normals that a smooth surface has, neighbours reflect nearly the same place. The lines run on
+/// across an edge where the surface is smooth, and break where it has a crease.
+std::vector<Colour> reflection_lines(const MeshView& mesh) {
+  constexpr Vector kDark{46, 74, 120}, kBright{250, 248, 240};
+  std::vector<Colour> colours;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    const double light = reflected_light(unit_normal(mesh, f));
+    const auto channel = [&](std::size_t c) {
+      return static_cast<std::uint8_t>(std::lround(kDark[c] + light * (kBright[c] - kDark[c])));
+    };
+    colours.push_back({channel(0), channel(1), channel(2)});
+  }
+  return colours;
+}
+
 }  // namespace
 
 std::vector<Colour> facet_colours(const MeshView& mesh, const std::string& by) {
   if (by.empty()) return {};
+  if (by == "reflection") return reflection_lines(mesh);
   std::vector<double> values;
   if (by == "angle") {
     values = bends(mesh);
@@ -83,7 +111,7 @@ std::vector<Colour> facet_colours(const MeshView& mesh, const std::string& by) {
     }
     for (const FacetAddress& address : mesh.addresses) values.push_back(address.level);
   } else {
-    throw InvalidInput("NotRepresentable", "facets are coloured by level or angle, not by " + by, "");
+    throw InvalidInput("NotRepresentable", "facets are coloured by level, angle or reflection, not by " + by, "");
   }
   const double largest = values.empty() ? 0 : *std::max_element(values.begin(), values.end());
   std::vector<Colour> colours;

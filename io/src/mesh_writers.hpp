@@ -24,7 +24,8 @@ namespace hexact::io {
 [[nodiscard]] float narrowed(double value, const char* element, std::size_t number);
 
 using Colour = std::array<std::uint8_t, 3>;
-/// One colour for each facet by its level or by the largest angle to a neighbour, blue 0 to red at the maximum; empty
+/// One colour for each facet by its level or by the largest angle to a neighbour, blue 0 to red at the maximum, or by
+/// reflection lines (dark and bright stripes by the place that the normal reflects to a fixed viewer); empty
 /// when no colour is asked for. Throws InvalidInput (NotRepresentable) for levels that the mesh does not have.
 [[nodiscard]] std::vector<Colour> facet_colours(const MeshView& mesh, const std::string& by);
 

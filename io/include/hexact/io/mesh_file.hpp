@@ -36,7 +36,7 @@ using Geometry = std::variant<PolygonSoup<Rational>, PlaneBody, Certificate>;
 [[nodiscard]] std::string sha256_hex(std::string_view bytes);
 
 struct MeshWriteOptions {
-  std::string color;  ///< "", "level" or "angle": colours of facets, where the format has them (PLY, OFF)
+  std::string color;  ///< "", "level", "angle" or "reflection": colours of facets, where the format has them (PLY, OFF)
   std::string unit;   ///< "", "mm", "m", "in": noted in a comment where the format has one
 };
 
