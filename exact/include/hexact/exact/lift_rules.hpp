@@ -13,7 +13,8 @@ using KeptFraction = std::function<double(std::uint32_t level)>;
 /// The same fraction at every level, 0 < keep < 1. Facets then shrink to points.
 [[nodiscard]] KeptFraction constant_keep(double keep);
 /// 1 − 2^-(k+2) for the k-th chamfer step, k = 0, 1, …: the lifts of step k take at most the fraction 2^-(k+2) of every
-/// side, which is what the proof of smoothness in docs/chamfer.md asks for. The shortest edges then fall faster than
+/// side. Whether lifts keep the budgets under which the limit is C¹ (docs/smooth-limit.md) is decided by `smooth_limit`;
+/// those of this choice did wherever it was tried, constant_keep(0.5) often does not. The shortest edges then fall faster than
 /// geometrically, and the planes widen by about k bits at step k.
 [[nodiscard]] KeptFraction smooth_keep(std::uint32_t start_level);
 
