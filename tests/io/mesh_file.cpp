@@ -179,9 +179,9 @@ TEST_CASE("OBJ: texture coordinates, groups, materials and addresses are read an
   }
   // Texture numbers count only where there are texture coordinates.
   CHECK(soup(Format::obj, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/7 2 3/-2\n").attributes.empty());
-  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/4 2/3")) == Place{11, "facet 1"});
-  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/-4 2/3")) == Place{11, "facet 1"});
-  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3 2/3")) == Place{11, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/4 2/3")) == Place{12, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3/-4 2/3")) == Place{12, "facet 1"});
+  CHECK(error_of(Format::obj, replaced(text, "3/2 2/3", "3 2/3")) == Place{12, "facet 1"});
   CHECK(error_of(Format::obj, replaced(text, "vt 0.1 1", "vt 0.1 nan")) == Place{7, "texture coordinate 1"});
   CHECK(error_of(Format::obj, replaced(text, "vt 0.1 1", "vt 0.1 1 2 3")) == Place{7, "texture coordinate 1"});
 }
