@@ -147,6 +147,8 @@ std::vector<ClaimVerdict> certify_result(const PlaneBody& body, const SubdivideO
 
 Outcome subdivide_chamfer_surface(const BodyInput& input, const SubdivideOptions& options, const Common& common) {
   if (!options.limit_points.empty()) throw UsageError("--limit-points needs a convex solid");
+  if (!options.keep.empty()) throw UsageError("--keep needs a convex solid");
+  if (!options.lifts.empty() && options.lifts != "auto") throw UsageError("--lifts file and fair need a convex solid");
   check_bounds(input.body, options.levels, common);
   ChamferSurface surface = chamfer_surface_start(input.body);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();

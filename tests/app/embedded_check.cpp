@@ -82,3 +82,21 @@ TEST_CASE("make, certify and check a solid that is not convex", "[app][embedded]
   CHECK(program::run(folder, "\"$check\" saddle.cert").status == 0);
   CHECK(program::run(folder, "\"$hexact\" certify saddle.planes --prove closed").status == 1);
 }
+
+TEST_CASE("subdivide --scheme chamfer on surfaces that are not convex", "[app][embedded]") {
+  const program::Folder folder;
+  for (const std::string name : {"l-prism", "frame", "planar-saddle"}) {
+    CHECK(program::run(folder, "\"$hexact\" make " + name + " -o in.planes").status == 0);
+    const program::Run run = program::run(folder, "\"$hexact\" subdivide in.planes --scheme chamfer --levels 2 -o out.planes --certificate out.cert --json");
+    CAPTURE(name, run.out, run.err);
+    REQUIRE(run.status == 0);
+    CHECK(run.out.find("\"concave_edges\"") != std::string::npos);
+    CHECK(program::run(folder, "\"$check\" out.cert").status == 0);
+    CHECK(program::run(folder, "\"$hexact\" certify out.planes --prove planar,embedded").status == 0);
+  }
+  CHECK(program::run(folder, "\"$hexact\" make octahedron -o octahedron.planes").status == 0);
+  const program::Run refused = program::run(folder, "\"$hexact\" subdivide octahedron.planes --scheme chamfer -o out.planes");
+  CHECK(refused.status == 3);
+  CHECK(refused.err.find("vertex 0") != std::string::npos);
+  CHECK(program::run(folder, "\"$hexact\" subdivide in.planes --scheme chamfer --keep 0.5 -o out.planes").status == 2);
+}
