@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // hexact-check against the library and against the definitions, on certificates that were edited.
+#include "dice.hpp"
 #include "chamfer_samples.hpp"
 #include "hexact/exact/certify.hpp"
 #include "hexact/exact/honeycomb.hpp"
@@ -85,20 +86,6 @@ std::vector<Certificate> originals() {
   for (Certificate& c : chamfers()) out.insert(out.end() - 1, std::move(c));
   return out;
 }
-
-class Dice {  // splitmix64
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 std::vector<std::vector<VertexId>> lists(const FacetLoops& loops) {
   std::vector<std::vector<VertexId>> out;

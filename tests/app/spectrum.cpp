@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The subcommand spectrum, and its certificates under edits: hexact-check and the library agree on every claim.
+#include "dice.hpp"
 #include "hexact/exact/spectrum_certificate.hpp"
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/io/spectrum_certificate_file.hpp"
@@ -26,20 +27,6 @@ std::string with_digest(const std::string& text) {
   const std::string before = text.substr(0, text.rfind("sha256 "));
   return before + "sha256 " + io::sha256_hex(before) + "\n";
 }
-
-class Dice {  // splitmix64
- public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return static_cast<std::size_t>((z ^ (z >> 31)) % n);
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 /// One edit of a digit, a sign, a word or a line, anywhere between the first line and the digest.
 std::string edited(std::string text, Dice& dice) {

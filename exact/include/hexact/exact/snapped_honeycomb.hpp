@@ -40,7 +40,7 @@ struct SnappedFigures {
   double max_parameter_change = 0;  ///< upper bound of λ realised − λ asked (0 for plane policies)
   double min_parameter = 0;         ///< lower bound of the smallest realised λ
   double delta = 0;                 ///< lower bound of 1 − λ(a→b) − λ(b→a) over all edges (size policies)
-  std::size_t exact_choices = 0;    ///< planes chosen by big-integer arithmetic because doubles could not tell
+  std::size_t exact_choices = 0;    ///< planes chosen in 128-bit words or big integers because doubles could not tell
 };
 
 struct SnappedStep {
