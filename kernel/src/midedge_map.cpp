@@ -11,6 +11,8 @@
 namespace hexact {
 namespace {
 
+/// Vertices between the one that is worked on and the one whose far half-edge is asked for.
+constexpr std::uint32_t kAhead = 16;
 constexpr std::size_t kGrain = std::size_t{1} << 13;
 
 /// Everything that keeps loops from being an oriented manifold whose inner vertices have 3 edges or more.
@@ -188,6 +190,7 @@ MidedgeMap MidedgeMap::regular_step() const {
   });
   for_ranges(v_count, kGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t v = begin; v != end; ++v) {
+      if (v + kAhead < v_count) __builtin_prefetch(&twin_[previous(twin_[v + kAhead])]);
       const std::uint32_t a = previous(v), b = previous(twin_[a]), t = twin_[b], c = previous(t);
       const std::uint32_t at = h_count + 4 * v;
       r.origin_[at] = v;
