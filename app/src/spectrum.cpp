@@ -8,6 +8,7 @@
 #include "hexact/io/output_file.hpp"
 #include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
+#include "spectrum_matrix.hpp"
 #include "spectrum_picture.hpp"
 
 #include <fmt/format.h>
@@ -19,10 +20,10 @@ namespace hexact::app {
 namespace {
 
 struct SpectrumOptions {
-  std::string scheme, masks, valence, certificate, picture;
+  std::string scheme, masks, valence, certificate, matrix, picture;
 };
 
-constexpr int kDigits = 30;
+constexpr int kDigits = 32;  // enclosures of width 2^-104 stay narrower than 2^-100
 constexpr int kLargestValence = 1000;
 
 struct Range {
@@ -149,6 +150,7 @@ Request masks_request(const SpectrumOptions& options) {
 
 Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   if (options.certificate == "-" && common.json) throw UsageError("--json and the certificate cannot both go to standard output");
+  if (options.matrix == "-" && (common.json || options.certificate == "-")) throw UsageError("only one document can go to standard output");
   const Request request = options.masks.empty() ? scheme_request(options) : masks_request(options);
   const std::vector<SpectrumSubject>& subjects = request.subjects;
   if (!options.picture.empty() && subjects.size() != 1) throw UsageError("--picture shows one valence");
@@ -166,6 +168,7 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   outcome.report["scheme"] = request.name;
   outcome.report["verdict"] = name_of(all);
   outcome.report["rows"] = std::move(table);
+  if (!options.matrix.empty()) write_subdivision_matrices(options.matrix, request.name, subjects);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
   if (!options.certificate.empty()) {
     const bool proved = all == Verdict::proved;
@@ -177,6 +180,7 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
     if (options.certificate == "-") outcome.text.clear();
     else outcome.text += proved ? "certificate: " + options.certificate + "\n" : "no certificate: not all rows are proved\n";
   }
+  if (options.matrix == "-") outcome.text.clear();
   outcome.exit_code = all == Verdict::proved ? kDone : all == Verdict::refuted ? kClaimFails : kUndecided;
   return outcome;
 }
@@ -190,6 +194,7 @@ void add_spectrum(const Registry& registry) {
   command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin");
   command->add_option("--masks", options->masks, "JSON document of masks of your own, instead of a scheme");
   command->add_option("--certificate", options->certificate, "Certificate to write when every row is proved; hexact-check verifies it");
+  command->add_option("--matrix", options->matrix, "JSON to write: the exact matrices by blocks, and their characteristic polynomials");
   command->add_option("--picture", options->picture, "SVG drawing of the ring of the characteristic map, for one valence");
   Common& common = registry.common;
   command->callback([&selected = registry.selected, &common, options] {
