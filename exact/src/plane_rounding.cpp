@@ -89,15 +89,21 @@ Sum two_sum(double a, double b) {
   return {s, (a - (s - bb)) + (b - bb)};
 }
 
+struct Quotient {
+  Sum value;
+  bool exact;  ///< known to be the quotient itself
+};
+
 /// p/q as an unevaluated sum, off by less than 2^-98 |p/q|. With p = ph + pl(1 + ε), q likewise (ε = 2^-53),
 /// p/q = a + (p − aq)/q for a = fl(ph/qh); ph − a·qh is exact by fma; each further rounding is at most ε times
-/// 4ε|p|, and replacing q by qh in the correction costs ε·4ε: together below 2^-100.
-Sum quotient(Wide p, Wide q) {
+/// 4ε|p|, and replacing q by qh in the correction costs ε·4ε: together below 2^-100. Where p and q are doubles and
+/// nothing is left of ph − a·qh, the quotient is a.
+Quotient quotient(Wide p, Wide q) {
   const double ph = static_cast<double>(p), pl = static_cast<double>(p - static_cast<Wide>(ph));
   const double qh = static_cast<double>(q), ql = static_cast<double>(q - static_cast<Wide>(qh));
   const double a = ph / qh;
-  const double residual = std::fma(-a, qh, ph) + (pl - a * ql);
-  return two_sum(a, residual / qh);
+  const double left = std::fma(-a, qh, ph);
+  return {two_sum(a, (left + (pl - a * ql)) / qh), left == 0 && pl == 0 && ql == 0};
 }
 
 /// What the coordinates of a body are multiplied by and moved by.
@@ -124,19 +130,18 @@ std::optional<Placement> placement_in_doubles(const PlaneBody& body) {
 /// 2^530 or are 0, so nothing under- or overflows.
 std::optional<Rounded> round_in_doubles(Wide p, Wide q, double factor, double shift) {
   if (p == 0) return Rounded{shift, 0};
-  const Sum x = quotient(p, q);
+  const auto [x, exact] = quotient(p, q);
   const Sum scaled{x.high * factor, x.low * factor};
-  double bound = 0x1p-96 * std::fabs(scaled.high);
+  double bound = exact ? 0 : 0x1p-96 * std::fabs(scaled.high);
   Sum r = scaled;
   if (shift != 0) {
     const Sum moved = two_sum(shift, scaled.high);
     const double low = moved.low + scaled.low;
-    bound += 0x1p-52 * std::fabs(low);
+    if (!exact) bound += 0x1p-52 * std::fabs(low);  // an exact quotient has no low part to add
     r = two_sum(moved.high, low);
   }
   // fl is monotone: the exact value lies between r.high + (r.low ∓ bound), whose roundings must agree.
-  bound *= 2;
-  bound += 0x1p-52 * std::fabs(r.low);
+  if (!exact) bound = 2 * bound + 0x1p-52 * std::fabs(r.low);
   if (r.high + (r.low - bound) != r.high || r.high + (r.low + bound) != r.high) return std::nullopt;
   return Rounded{r.high, std::fabs(r.low) + bound};
 }

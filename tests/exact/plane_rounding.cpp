@@ -90,6 +90,22 @@ TEST_CASE("vertices without a point and coordinates beyond the doubles are refus
   CHECK_THROWS_AS(rounded_vertices(far), ResourceLimit);
 }
 
+TEST_CASE("what doubles hold is known to be exact", "[rounding]") {
+  for (const auto& [p, q] : {std::pair<std::int64_t, std::int64_t>{1, 1}, {-7, 4}, {15, 3}, {(std::int64_t{1} << 50) + 1, 1}, {21, 7}}) {
+    CAPTURE(p, q);
+    CHECK(rounded_vertices(one_vertex(p, q)).max_rounding == 0);
+    PlaneBody moved = one_vertex(p, q);
+    moved.shift[0] = Rational(1) / Rational(2);
+    CHECK(rounded_vertices(moved).max_rounding == 0);
+    moved.shift[0] = Rational(1).scaled(-80);  // beyond the last bit: off by just that
+    CHECK(rounded_vertices(moved).max_rounding > 0);
+    check_rounding(moved);
+  }
+  CHECK(rounded_vertices(one_vertex(1, 3)).max_rounding > 0);
+  check_rounding(one_vertex(1, 3));
+  check_rounding(one_vertex((std::int64_t{1} << 60) + 1, 1));
+}
+
 TEST_CASE("vertices over Q(sqrt5) are rounded correctly", "[rounding]") {
   const nlohmann::json data = test::golden();
   const test::Solid dodecahedron = test::solid(data.at("closed")[2].at("initial"));
