@@ -241,7 +241,7 @@ mpq_class Scanner::rational(Text w) const {
   if (p.size() > 1 && p[0] == '+' && p[1] != '-') p.remove_prefix(1);
   const auto digits = [](Text t) { return !t.empty() && t.find_first_not_of("0123456789") == Text::npos; };
   if (p.empty() || !digits(p.substr(p[0] == '-' ? 1 : 0)) || !digits(q)) fail("expected a number, found " + std::string(w));
-  mpq_class x{mpz_class(std::string(p)), mpz_class(std::string(q))};
+  mpq_class x{mpz_class(std::string(p), 10), mpz_class(std::string(q), 10)};  // a leading 0 does not mean octal
   if (x.get_den() == 0) fail("a denominator is 0");
   x.canonicalize();
   return x;

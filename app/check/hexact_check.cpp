@@ -149,7 +149,7 @@ int run_spectrum(const std::string& path, bool json) {
     lines += name + ": " + verdict + (fault.empty() ? "" : ": " + fault) + "\n";
     if (witness.empty() && !fault.empty()) witness = name + ": " + fault;
   }
-  if (claims.empty()) throw Malformed(path, 0, "there are no rows");
+  if (claims.empty()) throw Malformed(path, 0, "states no claims");
   const char* const verdict = witness.empty() ? "proved" : "refuted";
   const std::string tail = witness.empty() ? "" : ", \"witness\": " + quoted(witness);
   if (json) std::printf("{\"verdict\": %s, \"claims\": {%s}%s}\n", quoted(verdict).c_str(), claims.c_str(), tail.c_str());

@@ -285,22 +285,28 @@ std::string spline_fault(const std::vector<Piece>& pieces, const mpq_class& jaco
 }  // namespace
 
 std::string ring_fault(Scheme scheme, const ListedRow& row, const ListedValue& eigenvalue) {
-  if (sgn(row.jacobian) <= 0 || sgn(row.half_plane) <= 0) return "a bound is not positive";
-  if (row.jacobian > 1 || row.half_plane > 1) return "a bound is greater than 1";
+  const RingBounds& bounds = *row.ring;
+  if (sgn(bounds.jacobian) <= 0 || sgn(bounds.half_plane) <= 0) return "a bound is not positive";
+  if (bounds.jacobian > 1 || bounds.half_plane > 1) return "a bound is greater than 1";
   const std::vector<ComplexBall> all = turns(row);
-  const ModeRule rule(scheme, row.k, 1);
+  const ModeRule rule(scheme, row, 1);
   const bool six = scheme == Scheme::midedge6, spline = !six && scheme != Scheme::midedge;
-  if (spline ? row.level != 0 : row.level < (six ? 3 : 1) || row.level > 7) return "there is no proof at this level";
+  if (spline ? bounds.level != 0 : bounds.level < (six ? 3 : 1) || bounds.level > 7) return "there is no proof at this level";
   Net net = eigenvector(rule, eigenvalue, all);
   if (net.empty()) return "the eigenvector is not certain to be unique";
   if (!spline) {
     MidedgeRing ring(rule, six, std::move(net), eigenvalue, all);
-    for (int l = 0; l < row.level; ++l) ring.refine();
-    return ring.fault(row.level, row.jacobian, row.half_plane);
+    for (int l = 0; l < bounds.level; ++l) ring.refine();
+    return ring.fault(bounds.level, bounds.jacobian, bounds.half_plane);
   }
-  if (scheme == Scheme::loop) return spline_fault({triangle(rule, net, all, 1, 0, 1), triangle(rule, net, all, 1, 1, -1)}, row.jacobian, row.half_plane);
-  const int d = scheme == Scheme::doo_sabin ? 2 : 3;
-  return spline_fault({square(rule, net, all, d, 1, 0), square(rule, net, all, d, 1, 1)}, row.jacobian, row.half_plane);
+  std::vector<Piece> pieces;
+  if (scheme == Scheme::loop) {
+    pieces = {triangle(rule, net, all, 1, 0, 1), triangle(rule, net, all, 1, 1, -1)};
+  } else {
+    const int d = scheme == Scheme::doo_sabin ? 2 : 3;
+    pieces = {square(rule, net, all, d, 1, 0), square(rule, net, all, d, 1, 1)};
+  }
+  return spline_fault(pieces, bounds.jacobian, bounds.half_plane);
 }
 
 }  // namespace check

@@ -30,8 +30,26 @@ mpq_class ratio(int p, int q) {
 
 }  // namespace
 
-ModeRule::ModeRule(Scheme scheme, int k, int mode) : scheme_(scheme), k_(k), mode_(mode) {
-  if (scheme == Scheme::midedge6) q_ = ratio(3, 16 * (k - 2));
+std::string mask_fault(Scheme scheme, const ListedRow& row) {
+  if (!row.mask) return scheme == Scheme::blocks ? "the row gives no blocks" : "";
+  const std::vector<mpq_class>& w = row.mask->weights;
+  const auto k = static_cast<std::size_t>(row.k);
+  if (scheme == Scheme::blocks) return "";
+  if (scheme == Scheme::midedge || scheme == Scheme::midedge6) return "masks replace a rule of loop, catmull-clark or doo-sabin";
+  const std::size_t n = scheme == Scheme::loop ? 2 : scheme == Scheme::catmull_clark ? 3 : k;
+  if (w.size() != n) return "there must be " + std::to_string(n) + " weights";
+  for (std::size_t d = 1; scheme == Scheme::doo_sabin && d < k; ++d) {
+    if (w[d] != w[k - d]) return "the weights have no mirror image";
+  }
+  return "";
+}
+
+ModeRule::ModeRule(Scheme scheme, const ListedRow& row, int mode) : scheme_(scheme), mask_(row.mask), k_(row.k), mode_(mode) {
+  if (scheme == Scheme::blocks) {
+    for (int i = 0; i < mask_->side; ++i) vertices_.push_back({i, 0});
+    return;
+  }
+  if (scheme == Scheme::midedge6) q_ = ratio(3, 16 * (k_ - 2));
   const int side = scheme == Scheme::midedge6 ? 4 : 3;
   if (primal() && mode == 0) vertices_.push_back({0, 0});
   for (int i = primal() ? 1 : 0; i < side + (primal() ? 1 : 0); ++i) {
@@ -103,6 +121,7 @@ Form ModeRule::midedge_fine(int i, int j) const {
 }
 
 Form ModeRule::doo_sabin_fine(int i, int j) const {
+  if (i == 0 && j == 0 && mask_) return sectors(0, mask_->weights);
   if (i == 0 && j == 0) return total({{vertex(0, 0), mode_ == 0 ? ratio(1, 1) : mode_ == 1 ? ratio(1, 2) : ratio(1, 4)}});
   const int x = i / 2, y = j / 2, sx = i % 2 != 0 ? 1 : -1, sy = j % 2 != 0 ? 1 : -1;
   return total({{vertex(x, y), ratio(9, 16)}, {vertex(x + sx, y), ratio(3, 16)}, {vertex(x, y + sy), ratio(3, 16)}, {vertex(x + sx, y + sy), ratio(1, 16)}});
@@ -140,6 +159,11 @@ Form ModeRule::box_fine(int i, int j) const {
 // The central vertex; mode 0 only, where all sectors are alike.
 Form ModeRule::centre() const {
   const Form s = vertex(0, 0), e = vertex(1, 0);
+  if (mask_) {
+    Form out = total({{s, mask_->weights[0]}, {e, k_ * mask_->weights[1]}});
+    if (scheme_ == Scheme::catmull_clark) add(out, vertex(1, 1), k_ * mask_->weights[2]);
+    return out;
+  }
   if (scheme_ == Scheme::catmull_clark) {  // (Q + 2R + (k - 3) S)/k
     const Form r = total({{s, ratio(1, 2)}, {e, ratio(1, 2)}}), q = total({{s, ratio(1, 4)}, {e, ratio(1, 2)}, {vertex(1, 1), ratio(1, 4)}});
     return total({{q, ratio(1, k_)}, {r, ratio(2, k_)}, {s, ratio(k_ - 3, k_)}});
@@ -156,7 +180,34 @@ Form ModeRule::centre() const {
   return out;
 }
 
+// ---- matrices that are given: weights of the sectors 0 ... k-1 ---------------------------------------------------------
+
+// Powers of z between -k/2 and k/2; half a turn is one half each way.
+Form ModeRule::sectors(std::size_t c, const std::vector<mpq_class>& by_sector) const {
+  Form out;
+  const std::pair<int, int> place = vertices_[c];
+  for (int d = 0; d < k_; ++d) {
+    const mpq_class& w = by_sector[static_cast<std::size_t>(d)];
+    if (mode_ == 0) add(out, {{place, {{0, 1}}}}, w);
+    else if (2 * d == k_) add(out, {{place, {{d, 1}, {-d, 1}}}}, w / 2);
+    else add(out, {{place, {{2 * d < k_ ? d : d - k_, 1}}}}, w);
+  }
+  return out;
+}
+
+Form ModeRule::block_row(int i) const {
+  const auto n = static_cast<std::size_t>(mask_->side), r = static_cast<std::size_t>(i);
+  Form out;
+  for (std::size_t c = 0; c < n; ++c) {
+    std::vector<mpq_class> by_sector;
+    for (const auto& block : mask_->blocks) by_sector.push_back(block[r * n + c]);
+    add(out, sectors(c, by_sector), 1);
+  }
+  return out;
+}
+
 Form ModeRule::fine(int i, int j) const {
+  if (scheme_ == Scheme::blocks) return block_row(i);
   if (primal() && i == 0 && j == 0) return centre();
   switch (scheme_) {
     case Scheme::loop: return box_fine(i, j);

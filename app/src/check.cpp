@@ -20,7 +20,7 @@ Outcome check(const CheckOptions& options, const Common& common) {
   if (io::is_spectrum_certificate_file(options.certificate)) {
     if (!options.mesh.empty()) throw UsageError("a spectral certificate has no mesh to compare");
     const SpectrumCertificate certificate = io::read_spectrum_certificate(options.certificate);
-    if (certificate.rows.empty()) throw InvalidInput("NoClaims", options.certificate + " has no rows", "");
+    if (certificate.claims.empty()) throw InvalidInput("NoClaims", options.certificate + " states no claims", "");
     return claim_outcome(verify(certificate));
   }
   const io::Geometry geometry = io::read_geometry(options.certificate);

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -123,13 +124,14 @@ std::string row_text(const SpectrumRow& row) {
 struct Request {
   std::string name;
   std::optional<SpectrumScheme> scheme;  ///< none for masks
+  std::optional<MasksDocument> masks;
   std::vector<SpectrumSubject> subjects;
 };
 
 Request scheme_request(const SpectrumOptions& options) {
   if (options.valence.empty()) throw UsageError("--valence is missing: K or A..B");
   const Range range = valence_range(options.valence);
-  Request request{options.scheme.empty() ? "midedge6" : options.scheme, {}, {}};
+  Request request{options.scheme.empty() ? "midedge6" : options.scheme, {}, {}, {}};
   request.scheme = scheme_of(request.name);
   for (int k = range.first; k <= range.last; ++k) request.subjects.push_back(scheme_subject(*request.scheme, k));
   return request;
@@ -137,15 +139,48 @@ Request scheme_request(const SpectrumOptions& options) {
 
 Request masks_request(const SpectrumOptions& options) {
   if (!options.scheme.empty()) throw UsageError("--masks names its own scheme");
-  if (!options.certificate.empty()) throw UsageError("there is no certificate of masks");
   const Range range = options.valence.empty() ? Range{3, kLargestValence} : valence_range(options.valence);
-  const MasksDocument document = io::read_masks(options.masks);
-  Request request{document.name, {}, {}};
-  for (const ExtraordinaryMask& mask : document.masks) {
-    if (mask.valence >= range.first && mask.valence <= range.last) request.subjects.push_back(mask_subject(document, mask));
+  Request request;
+  request.masks = io::read_masks(options.masks);
+  request.name = request.masks->name;
+  for (const ExtraordinaryMask& mask : request.masks->masks) {
+    if (mask.valence >= range.first && mask.valence <= range.last) request.subjects.push_back(mask_subject(*request.masks, mask));
   }
   if (request.subjects.empty()) throw InvalidInput("NoMask", options.masks + " has no mask of these valences", "valence " + options.valence);
   return request;
+}
+
+SpectrumCertificate certificate_of(const Request& request, const std::vector<SpectrumRow>& rows, const SpectrumOptions& options) {
+  std::string command = request.scheme ? "spectrum --scheme " + request.name : "spectrum --masks " + options.masks;
+  if (!options.valence.empty()) command += " --valence " + options.valence;
+  std::vector<std::string> provenance{"hexact " HEXACT_VERSION, std::move(command)};
+  return request.scheme ? make_spectrum_certificate(*request.scheme, rows, std::move(provenance))
+                        : make_spectrum_certificate(*request.masks, rows, std::move(provenance));
+}
+
+/// Writes the certificate, unless it would state nothing, and reports what it states and what it leaves out.
+void write_certificate(Outcome& outcome, const Request& request, const std::vector<SpectrumRow>& rows, const SpectrumOptions& options) {
+  const SpectrumCertificate certificate = certificate_of(request, rows, options);
+  nlohmann::ordered_json stated = nlohmann::ordered_json::array(), omitted = nlohmann::ordered_json::array();
+  std::string stated_text, omitted_text;
+  for (const SpectrumRow& row : rows) {
+    for (const SpectrumClaim& claim : proved_claims(row)) {
+      const bool is_stated = std::find(certificate.claims.begin(), certificate.claims.end(), claim) != certificate.claims.end();
+      (is_stated ? stated : omitted).push_back(text_of(claim));
+      (is_stated ? stated_text : omitted_text) += " " + text_of(claim);
+    }
+  }
+  const bool written = !certificate.claims.empty();
+  if (written) io::write_file(options.certificate, io::spectrum_certificate_text(certificate));
+  outcome.report["certificate"] = written ? nlohmann::ordered_json(options.certificate) : nlohmann::ordered_json();
+  outcome.report["claims"] = std::move(stated);
+  outcome.report["left_out"] = std::move(omitted);
+  if (options.certificate == "-") {
+    outcome.text.clear();
+    return;
+  }
+  outcome.text += written ? "certificate: " + options.certificate + "\nstates" + stated_text + "\n" : "no certificate: it would state nothing\n";
+  if (!omitted_text.empty()) outcome.text += "leaves out" + omitted_text + "\n";
 }
 
 Outcome spectrum(const SpectrumOptions& options, const Common& common) {
@@ -170,16 +205,7 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   outcome.report["rows"] = std::move(table);
   if (!options.matrix.empty()) write_subdivision_matrices(options.matrix, request.name, subjects);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
-  if (!options.certificate.empty()) {
-    const bool proved = all == Verdict::proved;
-    if (proved) {
-      const std::vector<std::string> provenance{"hexact " HEXACT_VERSION, "spectrum --scheme " + request.name + " --valence " + options.valence};
-      io::write_file(options.certificate, io::spectrum_certificate_text(make_spectrum_certificate(*request.scheme, rows, provenance)));
-    }
-    outcome.report["certificate"] = proved ? nlohmann::ordered_json(options.certificate) : nlohmann::ordered_json();
-    if (options.certificate == "-") outcome.text.clear();
-    else outcome.text += proved ? "certificate: " + options.certificate + "\n" : "no certificate: not all rows are proved\n";
-  }
+  if (!options.certificate.empty()) write_certificate(outcome, request, rows, options);
   if (options.matrix == "-") outcome.text.clear();
   outcome.exit_code = all == Verdict::proved ? kDone : all == Verdict::refuted ? kClaimFails : kUndecided;
   return outcome;
@@ -193,7 +219,7 @@ void add_spectrum(const Registry& registry) {
   command->add_option("--scheme", options->scheme, "midedge, midedge6, loop, catmull-clark or doo-sabin (default: midedge6)");
   command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin");
   command->add_option("--masks", options->masks, "JSON document of masks of your own, instead of a scheme");
-  command->add_option("--certificate", options->certificate, "Certificate to write when every row is proved; hexact-check verifies it");
+  command->add_option("--certificate", options->certificate, "Certificate to write of what is proved, one way or the other; hexact-check verifies it");
   command->add_option("--matrix", options->matrix, "JSON to write: the exact matrices by blocks, and their characteristic polynomials");
   command->add_option("--picture", options->picture, "SVG drawing of the ring of the characteristic map, for one valence");
   Common& common = registry.common;

@@ -56,19 +56,28 @@ struct Decision {
   std::string witness;
 };
 
+bool is_one(const Candidate& c) {
+  return c.isolated && c.value.enclosure.lo == Rational(1) && c.value.enclosure.hi == Rational(1);
+}
+
+/// Whether an eigenvalue whose exact value is not known can be 1.
+bool may_be_one(const Candidate& c) {
+  if (!c.isolated) return c.high >= Rational(1);
+  return c.value.enclosure.lo <= Rational(1) && c.value.enclosure.hi >= Rational(1);
+}
+
 /// The leading 1: simple, and all others are smaller.
 Decision decide_one(std::vector<Candidate>& all) {
-  const auto one = std::find_if(all.begin(), all.end(), [](const Candidate& c) {
-    return c.isolated && c.value.enclosure.lo == Rational(1) && c.value.enclosure.hi == Rational(1);
-  });
-  if (one == all.end()) {
-    const bool all_known = std::all_of(all.begin(), all.end(), [](const Candidate& c) { return c.isolated; });
-    return {all_known ? Verdict::refuted : Verdict::undecided, "1 is not found among the eigenvalues"};
-  }
-  if (one->value.multiplicity != 1) return {Verdict::refuted, "1 is an eigenvalue of multiplicity " + std::to_string(one->value.multiplicity)};
-  all.erase(one);
+  const auto one = std::find_if(all.begin(), all.end(), is_one);
+  const int multiplicity = one == all.end() ? 0 : one->value.multiplicity;
+  if (multiplicity > 1) return {Verdict::refuted, "1 is an eigenvalue of multiplicity " + std::to_string(multiplicity)};
+  if (one != all.end()) all.erase(one);
   for (const Candidate& c : all) {
     if (c.low >= Rational(1)) return {Verdict::refuted, "an eigenvalue has modulus at least 1: " + times(c)};
+  }
+  if (multiplicity == 0) {
+    const bool possible = std::any_of(all.begin(), all.end(), may_be_one);
+    return {possible ? Verdict::undecided : Verdict::refuted, "1 is not found among the eigenvalues"};
   }
   for (const Candidate& c : all) {
     if (c.high >= Rational(1)) return {Verdict::undecided, "the modulus of an eigenvalue of mode " + std::to_string(c.value.mode) + " may reach 1"};
@@ -80,13 +89,17 @@ Decision decide_pair(const std::vector<Candidate>& all) {
   if (all.empty()) return {Verdict::refuted, "there is no second eigenvalue"};
   const Candidate& top = all.front();  // of the greatest lower bound
   if (!top.isolated) return {Verdict::undecided, "the eigenvalues of mode " + std::to_string(top.value.mode) + " are not isolated"};
+  bool has_equal = false;
   for (std::size_t i = 1; i < all.size(); ++i) {
     if (all[i].high < top.low) continue;
     const bool equal = all[i].isolated && all[i].low == all[i].high && top.low == top.high && all[i].low == top.low;
-    if (equal) return {Verdict::refuted, "two eigenvalues have the modulus of " + times(top)};
+    has_equal = has_equal || equal;
+    if (equal) continue;
     return {Verdict::undecided, "the second eigenvalue, " + times(top) + ", is not separated from one of mode " + std::to_string(all[i].value.mode)};
   }
-  if (top.value.enclosure.lo.sign() <= 0) return {Verdict::refuted, "the second eigenvalue is not positive: " + times(top)};
+  if (has_equal) return {Verdict::refuted, "two eigenvalues have the modulus of " + times(top)};
+  if (top.value.enclosure.hi.sign() <= 0) return {Verdict::refuted, "the second eigenvalue is not positive: " + times(top)};
+  if (top.value.enclosure.lo.sign() <= 0) return {Verdict::undecided, "the sign of the second eigenvalue is not certain: " + times(top)};
   if (top.value.multiplicity != 2) return {Verdict::refuted, "the second eigenvalue is " + times(top)};
   return {};
 }

@@ -1,178 +1,167 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/exact/spectrum_certificate.hpp"
 
+#include "eigenvalue_check.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "interval.hpp"
-#include "polynomial.hpp"
 
 #include <mpfr.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace hexact {
 namespace {
 
-/// Widest intervals that are accepted.
-const Rational kEigenvalueWidth = Rational(1).scaled(-100), kCosineWidth = Rational(1).scaled(-200);
+using Row = SpectrumCertificate::Row;
+using Scheme = std::optional<SpectrumScheme>;
 
-bool is_exact(const Eigenvalue& e) { return e.enclosure.lo == e.enclosure.hi; }
+/// The widest interval that is accepted.
+const Rational kCosineWidth = Rational(1).scaled(-200);
 
-/// Proves that a list holds all eigenvalues of a mode.
-class ModeCheck {
- public:
-  ModeCheck(const std::vector<Eigenvalue>& listed, int k) : listed_(listed), k_(k), found_(listed.size()) {}
+SpectrumSubject subject_of(const Scheme& scheme, const Row& row) {
+  if (row.mask) return mask_subject({"", scheme, {}}, *row.mask);
+  if (!scheme) throw InvalidInput("BadMask", "a row of a matrix of blocks gives them", "valence " + std::to_string(row.valence));
+  return scheme_subject(*scheme, row.valence);
+}
 
-  /// What is wrong; empty if nothing is.
-  std::string fault(const std::vector<CharacteristicFactor>& factors, std::size_t n) {
-    if (std::string f = list_fault(n); !f.empty()) return f;
-    for (const CharacteristicFactor& factor : factors) {
-      const RationalCosine c = rational_cosine(factor.angle, k_);
-      const bool constant = std::all_of(factor.coefficients.begin(), factor.coefficients.end(), [](const auto& p) { return p.size() <= 1; });
-      const std::string f = c.found || constant ? check_rational(factor, c.value) : check_enclosed(factor);
-      if (!f.empty()) return f;
-    }
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      if (found_[i] != listed_[i].multiplicity) return name(i) + " is found with multiplicity " + std::to_string(found_[i]);
-    }
-    return {};
-  }
-
- private:
-  static std::string name(std::size_t i) { return "eigenvalue " + std::to_string(i); }
-
-  std::string list_fault(std::size_t n) const {
-    std::size_t total = 0;
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      const RationalInterval& e = listed_[i].enclosure;
-      if (e.hi < e.lo || e.hi - e.lo > kEigenvalueWidth) return name(i) + " is no interval of width 2^-100 at most";
-      if (i > 0 && e.hi >= listed_[i - 1].enclosure.lo) return name(i) + " is not below the one before it";
-      total += static_cast<std::size_t>(listed_[i].multiplicity);
-    }
-    return total == n ? "" : std::to_string(total) + " eigenvalues are listed of " + std::to_string(n);
-  }
-
-  std::string check_rational(const CharacteristicFactor& factor, const Rational& c) {
-    Polynomial p;
-    for (const CosinePolynomial& a : factor.coefficients) p.push_back(value(a, c));
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      while (is_exact(listed_[i]) && p.size() > 1 && value(p, listed_[i].enclosure.lo).is_zero()) {
-        p = divided(p, {-listed_[i].enclosure.lo, Rational(1)}).first;
-        ++found_[i];
-      }
-    }
-    if (p.size() <= 1) return {};
-    for (const SquareFreeFactor& f : square_free_factors(p)) {
-      const auto sign = [&f = f](const Rational& x) { return value(f.factor, x).sign(); };
-      if (std::string fault = count_changes(f.factor.size() - 1, f.multiplicity, sign); !fault.empty()) return fault;
-    }
-    return {};
-  }
-
-  std::string check_enclosed(const CharacteristicFactor& factor) {
-    const Interval c = Interval::cosine(factor.angle, k_);
-    std::vector<Interval> p;
-    for (const CosinePolynomial& a : factor.coefficients) {
-      Interval v(0);
-      for (std::size_t i = a.size(); i-- > 0;) v = v * c + Interval(a[i]);
-      p.push_back(std::move(v));
-    }
-    return count_changes(p.size() - 1, 1, [&](const Rational& x) {
-      Interval v(0);
-      for (std::size_t i = p.size(); i-- > 0;) v = v * Interval(x) + p[i];
-      return v.sign();
-    });
-  }
-
-  /// A polynomial of this degree has a change of sign in as many of the listed intervals.
-  template <class Sign>
-  std::string count_changes(std::size_t degree, int multiplicity, const Sign& sign) {
-    std::size_t changes = 0;
-    for (std::size_t i = 0; i < listed_.size(); ++i) {
-      if (is_exact(listed_[i]) || sign(listed_[i].enclosure.lo) * sign(listed_[i].enclosure.hi) >= 0) continue;
-      ++changes;
-      found_[i] += multiplicity;
-    }
-    if (changes == degree) return {};
-    return "a factor of degree " + std::to_string(degree) + " changes sign in " + std::to_string(changes) + " of the intervals";
-  }
-
-  const std::vector<Eigenvalue>& listed_;
-  int k_;
-  std::vector<int> found_;
-};
-
-std::string spectrum_fault(const SpectrumCertificate::Row& row, const SubdivisionMatrix& matrix) {
+std::string spectrum_fault(const Row& row, const SubdivisionMatrix& matrix) {
   if (row.cosine.hi - row.cosine.lo > kCosineWidth) return "the cosine interval is wider than 2^-200";
   if (!encloses_cosine(row.cosine, row.valence)) return "the interval does not contain cos(2 pi/k)";
   if (row.modes.size() != static_cast<std::size_t>(row.valence / 2) + 1) return "a mode is missing";
   for (std::size_t m = 0; m < row.modes.size(); ++m) {
-    const int mode = static_cast<int>(m);
     const std::size_t n = matrix.size() + (m == 0 && matrix.has_centre ? 1 : 0);
-    ModeCheck check(row.modes[m], row.valence);
-    const std::string fault = check.fault(characteristic_factors(matrix, mode), n);
+    const std::string fault = eigenvalue_fault(row.modes[m], characteristic_factors(matrix, static_cast<int>(m)), row.valence, n);
     if (!fault.empty()) return "mode " + std::to_string(m) + ": " + fault;
   }
   return {};
 }
 
-struct RowVerdict {
-  std::string ordering, ring;  ///< what is wrong, empty if nothing is
+std::string ring_fault(SpectrumScheme scheme, const SubdivisionMatrix& matrix, const Row& row, const Eigenvalue& second) {
+  if (second.mode != 1) return "the second eigenvalue is not of mode 1";
+  if (!row.ring) return "there is no proof of the ring";
+  const SpectrumCertificate::Ring& ring = *row.ring;
+  if (ring.jacobian.sign() <= 0 || ring.half_plane.sign() <= 0) return "a bound is not positive";
+  if (is_bspline_scheme(scheme) && ring.level != 0) return "rings of B-splines have level 0";
+  const RingProof proof = prove_ring(scheme, matrix, second.enclosure, ring.level);
+  if (proof.verdict != Verdict::proved) return proof.reason;
+  if (proof.jacobian < ring.jacobian) return "the bound of the Jacobian is only " + proof.jacobian.str();
+  if (proof.half_plane < ring.half_plane) return "the bound of the half-plane is only " + proof.half_plane.str();
+  return {};
+}
+
+/// What is wrong with each statement about a row; empty if nothing is.
+struct RowFaults {
+  std::string ordering, ring, ordering_fails, ring_fails;
 };
 
-RowVerdict verify_row(SpectrumScheme scheme, const SpectrumCertificate::Row& row) {
-  const SpectrumSubject subject = scheme_subject(scheme, row.valence);
-  RowVerdict out;
-  out.ordering = spectrum_fault(row, subject.matrix);
+void decide(RowFaults& out, const Scheme& scheme, const Row& row, bool with_ring) {
+  const SpectrumSubject subject = subject_of(scheme, row);
+  out.ordering = out.ordering_fails = spectrum_fault(row, subject.matrix);
+  out.ring = out.ring_fails = "rests on the ordering";
+  if (!out.ordering.empty()) return;
   SpectrumRow decided;
-  if (out.ordering.empty()) {
-    decided.valence = row.valence;
-    for (const auto& listed : row.modes) decided.modes.push_back({listed, 0, {}});
-    decide_ordering(decided);
-    if (decided.ordering != Verdict::proved) out.ordering = decided.ordering_witness;
+  decided.valence = row.valence;
+  decided.modes = row.modes;
+  decide_ordering(decided);
+  out.ordering = decided.ordering_witness;
+  if (decided.ordering == Verdict::proved) out.ordering_fails = "the ordering holds";
+  else if (decided.ordering == Verdict::undecided) out.ordering_fails = "it may hold: " + decided.ordering_witness;
+  if (!out.ordering.empty()) return;
+  if (!scheme) {
+    out.ring = out.ring_fails = "the rules away from the centre are not given";
+    return;
   }
-  if (!out.ordering.empty()) {
-    out.ring = "rests on the ordering";
-  } else if (decided.subdominant->mode != 1) {
-    out.ring = "the second eigenvalue is not of mode 1";
-  } else if (row.jacobian.sign() <= 0 || row.half_plane.sign() <= 0) {
-    out.ring = "a bound is not positive";
-  } else if (is_bspline_scheme(scheme) && row.level != 0) {
-    out.ring = "rings of B-splines have level 0";
-  } else {
-    const RingProof proof = prove_ring(scheme, subject.matrix, decided.subdominant->enclosure, row.level);
-    if (proof.verdict != Verdict::proved) out.ring = proof.reason;
-    else if (proof.jacobian < row.jacobian) out.ring = "the bound of the Jacobian is only " + proof.jacobian.str();
-    else if (proof.half_plane < row.half_plane) out.ring = "the bound of the half-plane is only " + proof.half_plane.str();
+  const Eigenvalue& second = *decided.subdominant;
+  const bool winds = second.mode > 1 && 2 * second.mode < row.valence;
+  out.ring_fails = winds ? "" : "the second eigenvalue is of mode " + std::to_string(second.mode);
+  if (with_ring) out.ring = ring_fault(*scheme, subject.matrix, row, second);
+}
+
+RowFaults row_faults(const Scheme& scheme, const Row& row, bool with_ring) {
+  RowFaults out;
+  try {
+    decide(out, scheme, row, with_ring);
+  } catch (const InvalidInput& e) {  // a mask that is none
+    out.ordering = out.ordering_fails = e.findings().front().message;
+    out.ring = out.ring_fails = "rests on the ordering";
   }
   mpfr_free_cache();
   return out;
 }
 
+bool rests_on_ring(SpectrumClaimKind kind) { return kind == SpectrumClaimKind::ring || kind == SpectrumClaimKind::c1; }
+
+const std::string& fault_of(const RowFaults& faults, SpectrumClaimKind kind) {
+  switch (kind) {
+    case SpectrumClaimKind::ordering: return faults.ordering;
+    case SpectrumClaimKind::ring: return faults.ring;
+    case SpectrumClaimKind::c1: return faults.ordering.empty() ? faults.ring : faults.ordering;
+    case SpectrumClaimKind::ordering_fails: return faults.ordering_fails;
+    case SpectrumClaimKind::ring_fails: return faults.ring_fails;
+    case SpectrumClaimKind::c1_fails: break;
+  }
+  return faults.ordering.empty() ? faults.ring_fails : faults.ordering;
+}
+
+RationalInterval cosine_interval(int valence) {
+  const Interval c = Interval::cosine(1, valence);
+  const Rational ulp = Rational(1).scaled(-256);
+  const auto grid = [](const Rational& x) {
+    const Rational s = x.scaled(256);
+    return Rational(floor_quotient(s.numerator(), s.denominator())).scaled(-256);
+  };
+  return {grid(c.lower()) - ulp, grid(c.upper()) + ulp + ulp};
+}
+
+/// Whether the claim about the ordering holds with every disc `excess` wider. The radii were found by interval
+/// arithmetic; the exact count fails where a root or a coefficient happens to lie on the circle.
+bool holds(const Scheme& scheme, Row& row, SpectrumClaimKind claim, const Rational& excess) {
+  Row wider = row;
+  for (ModeSpectrum& m : wider.modes) {
+    if (m.remaining > 0) m.remaining_bound += excess;
+  }
+  if (!fault_of(row_faults(scheme, wider, false), claim).empty()) return false;
+  row = std::move(wider);
+  return true;
+}
+
+void add_row(SpectrumCertificate& certificate, const SpectrumRow& proved, std::optional<ExtraordinaryMask> mask) {
+  std::vector<SpectrumClaim> claims = proved_claims(proved);
+  if (!certificate.scheme) {
+    std::erase_if(claims, [](const SpectrumClaim& c) { return c.kind != SpectrumClaimKind::ordering && c.kind != SpectrumClaimKind::ordering_fails; });
+  }
+  if (claims.empty()) return;
+  Row row;
+  row.valence = proved.valence;
+  row.mask = std::move(mask);
+  row.cosine = cosine_interval(proved.valence);
+  row.modes = proved.modes;
+  if (std::any_of(row.modes.begin(), row.modes.end(), [](const ModeSpectrum& m) { return m.remaining > 0; })) {
+    bool found = false;
+    for (long step = 0; step < 8 && !found; ++step) found = holds(certificate.scheme, row, claims.front().kind, Rational(step).scaled(-20));
+    if (!found) return;
+  }
+  if (proved.ring.verdict == Verdict::proved) row.ring = {proved.ring.level, proved.ring.jacobian, proved.ring.half_plane};
+  certificate.rows.push_back(std::move(row));
+  certificate.claims.insert(certificate.claims.end(), claims.begin(), claims.end());
+}
+
 }  // namespace
 
 SpectrumCertificate make_spectrum_certificate(SpectrumScheme scheme, const std::vector<SpectrumRow>& rows, std::vector<std::string> provenance) {
-  SpectrumCertificate certificate;
-  certificate.provenance = std::move(provenance);
-  certificate.scheme = scheme;
+  SpectrumCertificate certificate{std::move(provenance), scheme, {}, {}};
+  for (const SpectrumRow& row : rows) add_row(certificate, row, std::nullopt);
+  return certificate;
+}
+
+SpectrumCertificate make_spectrum_certificate(const MasksDocument& masks, const std::vector<SpectrumRow>& rows, std::vector<std::string> provenance) {
+  SpectrumCertificate certificate{std::move(provenance), masks.scheme, {}, {}};
   for (const SpectrumRow& row : rows) {
-    if (overall(row) != Verdict::proved) {
-      throw InvalidInput("NotProved", "a certificate holds proved rows only", "valence " + std::to_string(row.valence));
-    }
-    SpectrumCertificate::Row r;
-    r.valence = row.valence;
-    const Interval c = Interval::cosine(1, row.valence);
-    const Rational ulp = Rational(1).scaled(-256);
-    const auto grid = [](const Rational& x) {
-      const Rational s = x.scaled(256);
-      return Rational(floor_quotient(s.numerator(), s.denominator())).scaled(-256);
-    };
-    r.cosine = {grid(c.lower()) - ulp, grid(c.upper()) + ulp + ulp};
-    for (const ModeSpectrum& m : row.modes) r.modes.push_back(m.isolated);
-    r.level = row.ring.level;
-    r.jacobian = row.ring.jacobian;
-    r.half_plane = row.ring.half_plane;
-    certificate.rows.push_back(std::move(r));
+    const auto mask = std::find_if(masks.masks.begin(), masks.masks.end(), [&](const auto& m) { return m.valence == row.valence; });
+    HEXACT_EXPECTS(mask != masks.masks.end());
+    add_row(certificate, row, *mask);
   }
   return certificate;
 }
@@ -195,17 +184,21 @@ bool encloses_cosine(const RationalInterval& interval, int k) {
 }
 
 std::vector<ClaimVerdict> verify(const SpectrumCertificate& certificate) {
-  std::vector<RowVerdict> verdicts(certificate.rows.size());
-  tbb::parallel_for(std::size_t{0}, verdicts.size(), [&](std::size_t i) { verdicts[i] = verify_row(certificate.scheme, certificate.rows[i]); });
+  const std::vector<SpectrumClaim>& claims = certificate.claims;
+  std::vector<RowFaults> faults(certificate.rows.size());
+  tbb::parallel_for(std::size_t{0}, faults.size(), [&](std::size_t i) {
+    const Row& row = certificate.rows[i];
+    const auto about_row = [&](const SpectrumClaim& c) { return c.valence == row.valence; };
+    if (std::none_of(claims.begin(), claims.end(), about_row)) return;
+    const bool with_ring = std::any_of(claims.begin(), claims.end(), [&](const SpectrumClaim& c) { return about_row(c) && rests_on_ring(c.kind); });
+    faults[i] = row_faults(certificate.scheme, row, with_ring);
+  });
   std::vector<ClaimVerdict> out;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
-    const std::string k = std::to_string(certificate.rows[i].valence);
-    const auto add = [&](const std::string& claim, const std::string& fault) {
-      out.push_back({claim + k, fault.empty() ? Verdict::proved : Verdict::refuted, fault});
-    };
-    add("ordering=", verdicts[i].ordering);
-    add("ring=", verdicts[i].ring);
-    add("c1=", verdicts[i].ordering.empty() ? verdicts[i].ring : verdicts[i].ordering);
+  for (const SpectrumClaim& claim : claims) {
+    const auto row = std::find_if(certificate.rows.begin(), certificate.rows.end(), [&](const Row& r) { return r.valence == claim.valence; });
+    const std::string fault = row == certificate.rows.end() ? "there is no row of this valence"
+                                                            : fault_of(faults[static_cast<std::size_t>(row - certificate.rows.begin())], claim.kind);
+    out.push_back({text_of(claim), fault.empty() ? Verdict::proved : Verdict::refuted, fault});
   }
   return out;
 }

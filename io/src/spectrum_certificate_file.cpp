@@ -13,6 +13,7 @@ namespace hexact::io {
 namespace {
 
 constexpr std::string_view kKeyword = "hexact-spectrum";
+constexpr std::string_view kBlocks = "blocks";  ///< in place of a scheme: the rows give their matrices
 constexpr std::size_t kLargestFile = std::size_t{256} << 20;
 constexpr std::int64_t kLargestValence = 1000;
 
@@ -26,26 +27,38 @@ class Reader {
       scanner_.fail("expected the first line hexact-spectrum 1");
     }
     scanner_.expect_end();
-    keyword("scheme");
+    next_keyword();
+    expect("scheme");
     out_.scheme = scheme(scanner_.expect_word("a scheme"));
     scanner_.expect_end();
-    keyword("rows");
+    next_keyword();
+    const bool names_claims = keyword_ == "claims";
+    if (names_claims) claims();
+    expect("rows");
     const std::size_t rows = scanner_.count("rows", 8, kLargestValence);
     scanner_.expect_end();
+    next_keyword();
     for (std::size_t i = 0; i < rows; ++i) row({"row", i});
-    keyword("sha256");
+    if (names_claims) check_claims();
+    else imply_claims();
+    expect("sha256");
     digest();
     out_.provenance = scanner_.comments();
     return std::move(out_);
   }
 
  private:
-  void keyword(const char* word, Element element = {}) {
-    scanner_.expect_line(word, element);
-    if (scanner_.word() != word) scanner_.fail(std::string("expected ") + word, element);
+  /// Moves to the next line and reads its first word.
+  void next_keyword(Element element = {}) {
+    scanner_.expect_line("a keyword", element);
+    keyword_ = scanner_.word();
+  }
+  void expect(std::string_view keyword, Element element = {}) const {
+    if (keyword_ != keyword) scanner_.fail("expected " + std::string(keyword), element);
   }
 
-  SpectrumScheme scheme(std::string_view name) const {
+  std::optional<SpectrumScheme> scheme(std::string_view name) const {
+    if (name == kBlocks) return std::nullopt;
     for (const SpectrumScheme s : {SpectrumScheme::midedge, SpectrumScheme::midedge6, SpectrumScheme::loop,
                                    SpectrumScheme::catmull_clark, SpectrumScheme::doo_sabin}) {
       if (name == name_of(s)) return s;
@@ -53,23 +66,91 @@ class Reader {
     scanner_.fail("there is no scheme " + quoted(name));
   }
 
+  void claims() {
+    const std::size_t n = scanner_.count("claims", 8, 6 * kLargestValence);
+    scanner_.expect_end();
+    next_keyword();
+    for (std::size_t i = 0; i < n; ++i) {
+      const Element element{"claim", i};
+      expect("claim", element);
+      const std::string_view text = scanner_.expect_word("a claim", element);
+      const auto claim = spectrum_claim(text);
+      if (!claim) scanner_.fail("there is no claim " + quoted(text), element);
+      if (std::find(out_.claims.begin(), out_.claims.end(), *claim) != out_.claims.end()) scanner_.fail("the claim stands here twice", element);
+      scanner_.expect_end(element);
+      out_.claims.push_back(*claim);
+      claim_lines_.push_back(scanner_.line());
+      next_keyword(element);
+    }
+  }
+
+  void check_claims() const {
+    for (std::size_t i = 0; i < out_.claims.size(); ++i) {
+      const auto about = [&](const auto& r) { return r.valence == out_.claims[i].valence; };
+      if (std::none_of(out_.rows.begin(), out_.rows.end(), about)) scanner_.fail_at(claim_lines_[i], "there is no row of this valence", {"claim", i});
+    }
+  }
+
+  /// Files from before claims were named hold proved rows only.
+  void imply_claims() {
+    for (const auto& row : out_.rows) {
+      for (const auto kind : {SpectrumClaimKind::ordering, SpectrumClaimKind::ring, SpectrumClaimKind::c1}) out_.claims.push_back({kind, row.valence});
+    }
+  }
+
   void row(Element element) {
     SpectrumCertificate::Row row;
-    keyword("row", element);
+    expect("row", element);
     row.valence = static_cast<int>(scanner_.integer("a valence", 3, kLargestValence, element));
     scanner_.expect_end(element);
     const auto same = [&](const auto& r) { return r.valence == row.valence; };
     if (std::any_of(out_.rows.begin(), out_.rows.end(), same)) scanner_.fail("a second row of this valence", element);
-    keyword("cosine", element);
+    next_keyword(element);
+    row.mask = mask(row.valence, element);
+    expect("cosine", element);
     row.cosine = interval(element);
     scanner_.expect_end(element);
+    next_keyword(element);
     for (int m = 0; 2 * m <= row.valence; ++m) row.modes.push_back(mode(m, element));
-    keyword("ring", element);
-    row.level = static_cast<int>(scanner_.integer("a level", 0, 64, element));
-    row.jacobian = scanner_.rational(element);
-    row.half_plane = scanner_.rational(element);
-    scanner_.expect_end(element);
+    if (keyword_ == "ring") {
+      SpectrumCertificate::Ring ring;
+      ring.level = static_cast<int>(scanner_.integer("a level", 0, 64, element));
+      ring.jacobian = scanner_.rational(element);
+      ring.half_plane = scanner_.rational(element);
+      scanner_.expect_end(element);
+      row.ring = std::move(ring);
+      next_keyword(element);
+    }
     out_.rows.push_back(std::move(row));
+  }
+
+  /// Weights on one line, or blocks with a line for each of their rows.
+  std::optional<ExtraordinaryMask> mask(int valence, Element element) {
+    ExtraordinaryMask out;
+    out.valence = valence;
+    if (keyword_ == "weights" && out_.scheme) {
+      const std::int64_t n = scanner_.integer("a number of weights", 0, kLargestValence, element);
+      for (std::int64_t i = 0; i < n; ++i) out.weights.push_back(scanner_.rational(element));
+      scanner_.expect_end(element);
+    } else if (keyword_ == "blocks" && !out_.scheme) {
+      const auto n = static_cast<std::size_t>(scanner_.integer("a number of rows", 1, 64, element));
+      scanner_.expect_end(element);
+      for (int d = 0; d < valence; ++d) out.blocks.push_back(block(n, element));
+    } else {
+      return std::nullopt;
+    }
+    next_keyword(element);
+    return out;
+  }
+
+  std::vector<Rational> block(std::size_t n, Element element) {
+    std::vector<Rational> out;
+    for (std::size_t r = 0; r < n; ++r) {
+      scanner_.expect_line("a row of a block", element);
+      for (std::size_t c = 0; c < n; ++c) out.push_back(scanner_.rational(element));
+      scanner_.expect_end(element);
+    }
+    return out;
   }
 
   RationalInterval interval(Element element) {
@@ -79,12 +160,12 @@ class Reader {
     return r;
   }
 
-  std::vector<Eigenvalue> mode(int m, Element element) {
-    keyword("mode", element);
+  ModeSpectrum mode(int m, Element element) {
+    expect("mode", element);
     if (scanner_.integer("a mode", 0, kLargestValence, element) != m) scanner_.fail("expected mode " + std::to_string(m), element);
     const std::size_t n = scanner_.count("eigenvalues", 5, 64);
     scanner_.expect_end(element);
-    std::vector<Eigenvalue> out;
+    ModeSpectrum out;
     for (std::size_t i = 0; i < n; ++i) {
       scanner_.expect_line("an eigenvalue", element);
       Eigenvalue e;
@@ -92,7 +173,14 @@ class Reader {
       e.enclosure = interval(element);
       e.multiplicity = static_cast<int>(scanner_.integer("a multiplicity", 1, 64, element));
       scanner_.expect_end(element);
-      out.push_back(std::move(e));
+      out.isolated.push_back(std::move(e));
+    }
+    next_keyword(element);
+    if (keyword_ == "disc") {
+      out.remaining = static_cast<int>(scanner_.integer("a number of eigenvalues", 1, 64, element));
+      out.remaining_bound = scanner_.rational(element);
+      scanner_.expect_end(element);
+      next_keyword(element);
     }
     return out;
   }
@@ -107,8 +195,40 @@ class Reader {
 
   std::string_view bytes_;
   LineScanner scanner_;
+  std::string_view keyword_;  ///< the first word of this line
   SpectrumCertificate out_;
+  std::vector<std::uint64_t> claim_lines_;
 };
+
+void append_mask(std::string& text, const ExtraordinaryMask& mask) {
+  if (mask.blocks.empty()) {
+    text += "weights " + std::to_string(mask.weights.size());
+    for (const Rational& w : mask.weights) text += " " + w.str();
+    text += "\n";
+    return;
+  }
+  std::size_t n = 1;
+  while (n * n < mask.blocks.front().size()) ++n;
+  text += "blocks " + std::to_string(n) + "\n";
+  for (const std::vector<Rational>& block : mask.blocks) {
+    for (std::size_t i = 0; i < block.size(); ++i) text += block[i].str() + (i % n + 1 == n ? "\n" : " ");
+  }
+}
+
+void append_row(std::string& text, const SpectrumCertificate::Row& row) {
+  text += "row " + std::to_string(row.valence) + "\n";
+  if (row.mask) append_mask(text, *row.mask);
+  text += "cosine " + row.cosine.lo.str() + " " + row.cosine.hi.str() + "\n";
+  for (std::size_t m = 0; m < row.modes.size(); ++m) {
+    const ModeSpectrum& mode = row.modes[m];
+    text += "mode " + std::to_string(m) + " " + std::to_string(mode.isolated.size()) + "\n";
+    for (const Eigenvalue& e : mode.isolated) {
+      text += e.enclosure.lo.str() + " " + e.enclosure.hi.str() + " " + std::to_string(e.multiplicity) + "\n";
+    }
+    if (mode.remaining > 0) text += "disc " + std::to_string(mode.remaining) + " " + mode.remaining_bound.str() + "\n";
+  }
+  if (row.ring) text += "ring " + std::to_string(row.ring->level) + " " + row.ring->jacobian.str() + " " + row.ring->half_plane.str() + "\n";
+}
 
 }  // namespace
 
@@ -120,17 +240,11 @@ std::string spectrum_certificate_text(const SpectrumCertificate& certificate) {
     std::replace(comment.begin(), comment.end(), '\n', ' ');
     text += "# " + comment + "\n";
   }
-  text += std::string("scheme ") + name_of(certificate.scheme) + "\nrows " + std::to_string(certificate.rows.size()) + "\n";
-  for (const SpectrumCertificate::Row& row : certificate.rows) {
-    text += "row " + std::to_string(row.valence) + "\ncosine " + row.cosine.lo.str() + " " + row.cosine.hi.str() + "\n";
-    for (std::size_t m = 0; m < row.modes.size(); ++m) {
-      text += "mode " + std::to_string(m) + " " + std::to_string(row.modes[m].size()) + "\n";
-      for (const Eigenvalue& e : row.modes[m]) {
-        text += e.enclosure.lo.str() + " " + e.enclosure.hi.str() + " " + std::to_string(e.multiplicity) + "\n";
-      }
-    }
-    text += "ring " + std::to_string(row.level) + " " + row.jacobian.str() + " " + row.half_plane.str() + "\n";
-  }
+  text += "scheme " + (certificate.scheme ? std::string(name_of(*certificate.scheme)) : std::string(kBlocks)) + "\n";
+  text += "claims " + std::to_string(certificate.claims.size()) + "\n";
+  for (const SpectrumClaim& claim : certificate.claims) text += "claim " + text_of(claim) + "\n";
+  text += "rows " + std::to_string(certificate.rows.size()) + "\n";
+  for (const SpectrumCertificate::Row& row : certificate.rows) append_row(text, row);
   const std::string digest = sha256_hex(text);
   return text += "sha256 " + digest + "\n";
 }

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The claims of spectral certificates: what is refuted, what is undecided in part, masks, eigenvalues in a disc.
+#include "dice.hpp"
+#include "spectrum_edits.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
+#include <set>
+
+using namespace hexact;
+using namespace hexact::spectrum_test;
+
+namespace {
+
+Rational fraction(long p, long q) { return Rational(p) / Rational(q); }
+
+std::string text_of_scheme(SpectrumScheme scheme, const std::vector<int>& valences) {
+  std::vector<SpectrumSubject> subjects;
+  for (const int k : valences) subjects.push_back(scheme_subject(scheme, k));
+  return io::spectrum_certificate_text(make_spectrum_certificate(scheme, spectrum_rows(subjects), {"test"}));
+}
+
+std::string text_of_masks(const MasksDocument& masks) {
+  std::vector<SpectrumSubject> subjects;
+  for (const ExtraordinaryMask& mask : masks.masks) subjects.push_back(mask_subject(masks, mask));
+  return io::spectrum_certificate_text(make_spectrum_certificate(masks, spectrum_rows(subjects), {"test"}));
+}
+
+MasksDocument weights(SpectrumScheme scheme, int k, std::vector<Rational> w) { return {"test", scheme, {{k, std::move(w), {}}}}; }
+
+/// A pentagon whose second eigenvalue is of mode 2.
+MasksDocument twice_around() { return weights(SpectrumScheme::doo_sabin, 5, {fraction(2, 5), fraction(1, 20), fraction(1, 4), fraction(1, 4), fraction(1, 20)}); }
+/// Catmull and Clark's rule with a centre whose mode 0 has two complex eigenvalues.
+MasksDocument complex_centre(int k) { return weights(SpectrumScheme::catmull_clark, k, {fraction(1, 2), Rational(-1) / Rational(k), fraction(3, 2 * k)}); }
+
+/// Blocks of random weights, mirror images of each other, with rows of sum 1.
+MasksDocument random_blocks(int k, std::size_t n, Dice& dice) {
+  ExtraordinaryMask mask{k, {}, std::vector<std::vector<Rational>>(static_cast<std::size_t>(k), std::vector<Rational>(n * n))};
+  for (std::size_t i = 0; i < n * n; ++i) {
+    for (int d = 0; 2 * d <= k; ++d) {
+      const Rational w = Rational(static_cast<long>(dice.below(9)) - 4) / Rational(static_cast<long>(32 * n));
+      mask.blocks[static_cast<std::size_t>(d)][i] = mask.blocks[static_cast<std::size_t>((k - d) % k)][i] = w;
+    }
+  }
+  for (std::size_t r = 0; r < n; ++r) {
+    Rational sum;
+    for (const auto& block : mask.blocks) {
+      for (std::size_t c = 0; c < n; ++c) sum += block[r * n + c];
+    }
+    for (auto& block : mask.blocks) block[r * n] += (Rational(1) - sum) / Rational(k);
+  }
+  return {"test", std::nullopt, {std::move(mask)}};
+}
+
+std::map<std::string, std::string> all_proved(const std::vector<std::string>& claims) {
+  std::map<std::string, std::string> out;
+  for (const std::string& c : claims) out[c] = "proved";
+  return out;
+}
+
+class Checkers {
+ public:
+  /// What both say.
+  Outcome of(const std::string& text) const {
+    const Outcome library = by_library(text), checker = by_checker(folder_, text);
+    CHECK(library.status == checker.status);
+    CHECK(library.claims == checker.claims);
+    return library;
+  }
+
+ private:
+  program::Folder folder_;
+};
+
+/// `claim` in addition to those of the certificate.
+std::string with_claim(const std::string& text, const std::string& claim) {
+  const std::size_t at = text.find("claims ") + 7, end = text.find('\n', at);
+  const int n = std::stoi(text.substr(at, end - at));
+  return with_digest(text.substr(0, at) + std::to_string(n + 1) + "\nclaim " + claim + text.substr(end));
+}
+
+/// As it was written before claims were named.
+std::string without_claims(std::string text) {
+  const std::size_t at = text.find("claims ");
+  return with_digest(text.erase(at, text.find("rows ") - at));
+}
+
+/// Every claim that an edited certificate proves is true of the matrix that it is then about.
+void check_truth(const std::string& text, const Outcome& outcome) {
+  if (outcome.status == 3) return;
+  const SpectrumCertificate certificate = io::parse_spectrum_certificate(text, "test");
+  for (const auto& row : certificate.rows) {
+    const bool proves = std::any_of(outcome.claims.begin(), outcome.claims.end(), [&](const auto& c) {
+      return c.second == "proved" && spectrum_claim(c.first)->valence == row.valence;
+    });
+    if (!proves) continue;
+    const SpectrumSubject subject = row.mask ? mask_subject({"", certificate.scheme, {}}, *row.mask) : scheme_subject(*certificate.scheme, row.valence);
+    std::set<std::string> truth;
+    for (const SpectrumClaim& c : proved_claims(spectrum_row(subject))) truth.insert(text_of(c));
+    for (const auto& [claim, verdict] : outcome.claims) {
+      if (verdict == "proved" && spectrum_claim(claim)->valence == row.valence) CHECK(truth.count(claim) == 1);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("claims have one spelling", "[spectrum][certificate]") {
+  for (const char* text : {"ordering=3", "ring=50", "c1=1000", "ordering-fails=7", "ring-fails=8", "c1-fails=9"}) {
+    REQUIRE(spectrum_claim(text));
+    CHECK(text_of(*spectrum_claim(text)) == text);
+  }
+  for (const char* text : {"", "ordering", "ordering=", "=3", "ordering=03", "ordering=+3", "ordering=3 ", "ordering=99999999999", "order=3", "c1=3=4", "c1=3x"}) {
+    CHECK_FALSE(spectrum_claim(text));
+  }
+}
+
+TEST_CASE("what is refuted is certified as such, and both checkers prove it", "[spectrum][certificate]") {
+  const Checkers checkers;
+  const std::string eightfold = text_of_scheme(SpectrumScheme::midedge, {3, 4});
+  CHECK(checkers.of(eightfold).claims == all_proved({"ordering-fails=3", "ordering=4", "ring=4", "c1=4"}));
+  CHECK(eightfold.find("\nring ") == eightfold.rfind("\nring "));  // no ring of the first row
+  const std::string winding = text_of_masks(twice_around());
+  CHECK(checkers.of(winding).claims == all_proved({"ordering=5", "ring-fails=5", "c1-fails=5"}));
+  // Sums of the weights that are not 1: 1 is no eigenvalue; a heavy centre: the second eigenvalue is simple; all weight
+  // stays at the corners: 1 is multiple; the alternating sign of a square: 1/2 and -1/2; all weight turns: modulus 1.
+  for (const MasksDocument& masks :
+       {weights(SpectrumScheme::loop, 5, {fraction(1, 2), fraction(1, 11)}), weights(SpectrumScheme::loop, 5, {fraction(19, 20), fraction(1, 100)}),
+        weights(SpectrumScheme::doo_sabin, 5, {Rational(1), Rational(0), Rational(0), Rational(0), Rational(0)}),
+        weights(SpectrumScheme::doo_sabin, 4, {fraction(1, 4), fraction(1, 2), fraction(-1, 4), fraction(1, 2)}),
+        MasksDocument{"test", std::nullopt, {{3, {}, {{Rational(1)}, {Rational(0)}, {Rational(0)}}}}}}) {
+    const int k = masks.masks[0].valence;
+    const Outcome outcome = checkers.of(text_of_masks(masks));
+    CHECK(outcome.status == 0);
+    CHECK(outcome.claims == all_proved({"ordering-fails=" + std::to_string(k)}));
+  }
+}
+
+TEST_CASE("no statement passes that the numbers contradict, nor one that they leave open", "[spectrum][certificate]") {
+  const Checkers checkers;
+  const std::vector<std::string> statements{"ordering", "ring", "c1", "ordering-fails", "ring-fails", "c1-fails"};
+  const std::string eightfold = text_of_scheme(SpectrumScheme::midedge, {3}), good = text_of_scheme(SpectrumScheme::loop, {3}),
+                    winding = text_of_masks(twice_around()), bounded = text_of_masks(complex_centre(5));
+  for (const std::string& text : {eightfold, good, winding, bounded}) {
+    const std::map<std::string, std::string> true_claims = checkers.of(text).claims;
+    for (const std::string& s : statements) {
+      const std::string claim = s + "=" + text.substr(text.find("\nrow ") + 5, 1);
+      if (true_claims.count(claim) != 0) {
+        CHECK(checkers.of(with_claim(text, claim)).status == 3);  // twice
+        continue;
+      }
+      const Outcome outcome = checkers.of(with_claim(text, claim));
+      CHECK(outcome.status == 1);
+      CHECK(outcome.claims.at(claim) == "refuted");
+      for (const auto& [other, verdict] : true_claims) CHECK(outcome.claims.at(other) == verdict);
+    }
+    CHECK(checkers.of(with_claim(text, "ordering=9")).status == 3);
+    CHECK(checkers.of(with_claim(text, "closed")).status == 3);
+  }
+  // A ring is claimed, but its bounds are gone.
+  const std::size_t ring = good.find("\nring ");
+  CHECK(checkers.of(with_digest(good.substr(0, ring + 1) + good.substr(good.find('\n', ring + 1) + 1))).claims ==
+        std::map<std::string, std::string>{{"ordering=3", "proved"}, {"ring=3", "refuted"}, {"c1=3", "refuted"}});
+}
+
+TEST_CASE("a certificate without claims proves nothing; one from before claims were named claims all three", "[spectrum][certificate]") {
+  const Checkers checkers;
+  const program::Folder folder;
+  const std::string good = text_of_scheme(SpectrumScheme::loop, {3, 4}), eightfold = text_of_scheme(SpectrumScheme::midedge, {3});
+  const std::string rows = good.substr(good.find("rows "));
+  const std::string silent = with_digest("hexact-spectrum 1\nscheme loop\nclaims 0\n" + rows);
+  CHECK(checkers.of(silent).status == 3);
+  program::write_bytes(folder.path().string() + "/silent.cert", silent);
+  CHECK(program::run(folder, "$hexact check silent.cert").status == 3);
+  CHECK(checkers.of(without_claims(good)).claims == all_proved({"ordering=3", "ring=3", "c1=3", "ordering=4", "ring=4", "c1=4"}));
+  CHECK(checkers.of(without_claims(eightfold)).claims ==
+        std::map<std::string, std::string>{{"ordering=3", "refuted"}, {"ring=3", "refuted"}, {"c1=3", "refuted"}});
+  // A file that was written by the first version of the format.
+  const std::string old = program::read_bytes(HEXACT_TEST_DATA "/loop3_first_format.cert");
+  CHECK(old.find("claim") == std::string::npos);
+  CHECK(checkers.of(old).claims == all_proved({"ordering=3", "ring=3", "c1=3"}));
+}
+
+TEST_CASE("numbers with leading zeros are decimal", "[spectrum][certificate]") {
+  const Checkers checkers;
+  const std::string good = text_of_scheme(SpectrumScheme::loop, {3});
+  CHECK(checkers.of(replaced(good, "ring 0 174999/1000000", "ring 0 017/0100")).status == 0);   // 15/64 would be too much
+  CHECK(checkers.of(replaced(good, "ring 0 174999/1000000", "ring 0 0174999/01000000")).status == 0);
+  CHECK(checkers.of(replaced(good, "ring 0 174999/1000000", "ring 0 0175/01000")).status == 1);
+}
+
+TEST_CASE("complex and clustered eigenvalues are certified by a disc", "[spectrum][certificate]") {
+  const Checkers checkers;
+  const std::string text = text_of_masks(complex_centre(5));
+  const std::size_t at = text.find("\ndisc 2 ");
+  REQUIRE(at != std::string::npos);
+  CHECK(checkers.of(text).claims == all_proved({"ordering=5", "ring=5", "c1=5"}));
+  const std::string line = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+  // A smaller disc has no root; a greater one reaches the second eigenvalue, 0.5499883…; none at all leaves two out.
+  for (const char* refuted : {"disc 2 3/10", "disc 2 11/20", "disc 2 2", "disc 2 0", "disc 2 -1/2", "disc 1 1/2", "disc 3 1/2"}) {
+    CHECK(checkers.of(replaced(text, line, refuted)).status == 1);
+  }
+  CHECK(checkers.of(replaced(text, line, "disc 2 1/2")).status == 0);
+  CHECK(checkers.of(replaced(text, line + "\n", "")).status == 1);
+  CHECK(checkers.of(replaced(text, line, "disc 0 1/2")).status == 3);
+  // Every kind of c: rational at 3, 4 and 6, in an interval at 5 and 7.
+  constexpr std::uint64_t kSeed = 71;
+  Dice dice(kSeed);
+  int with_disc = 0, ordered = 0;
+  for (const auto& [k, n] : std::vector<std::pair<int, std::size_t>>{{3, 2}, {4, 3}, {5, 2}, {5, 3}, {5, 6}, {6, 3}, {7, 4}}) {
+    for (int i = 0; i < 8; ++i) {
+      INFO("seed " << kSeed << ", valence " << k << ", " << n << " rows, sample " << i);
+      const MasksDocument masks = random_blocks(k, n, dice);
+      const Verdict ordering = spectrum_row(mask_subject(masks, masks.masks[0])).ordering;
+      const std::string blocks = text_of_masks(masks);
+      const Outcome outcome = checkers.of(blocks);
+      if (ordering == Verdict::undecided) {
+        CHECK(outcome.status == 3);
+        continue;
+      }
+      CHECK(outcome.claims == all_proved({(ordering == Verdict::proved ? "ordering=" : "ordering-fails=") + std::to_string(k)}));
+      with_disc += blocks.find("\ndisc ") != std::string::npos ? 1 : 0;
+      ordered += ordering == Verdict::proved ? 1 : 0;
+    }
+  }
+  CHECK(with_disc > 15);
+  CHECK(ordered > 1);
+}
+
+TEST_CASE("the certificate of one mask is none of another", "[spectrum][certificate][masks]") {
+  const Checkers checkers;
+  const auto mask_lines = [](const std::string& text) {
+    const std::size_t first = text.find('\n', text.find("\nrow ") + 1) + 1;
+    return text.substr(first, text.find("cosine ") - first);
+  };
+  const std::vector<MasksDocument> of_loop{weights(SpectrumScheme::loop, 5, {fraction(1, 2), fraction(1, 10)}),
+                                           weights(SpectrumScheme::loop, 5, {fraction(2, 5), fraction(3, 25)})},
+      of_face{weights(SpectrumScheme::doo_sabin, 5, {fraction(2, 5), fraction(1, 5), fraction(1, 10), fraction(1, 10), fraction(1, 5)}), twice_around()};
+  Dice dice(5);
+  const std::vector<MasksDocument> of_blocks{random_blocks(3, 2, dice), random_blocks(3, 2, dice)};
+  for (const auto& pair : {of_loop, of_face, of_blocks}) {
+    const std::string one = text_of_masks(pair[0]), other = text_of_masks(pair[1]);
+    REQUIRE(mask_lines(one) != mask_lines(other));
+    for (const auto& [text, stranger] : {std::pair{one, other}, {other, one}}) {
+      CHECK(checkers.of(text).status == 0);
+      for (const auto& [claim, verdict] : checkers.of(replaced(text, mask_lines(text), mask_lines(stranger))).claims) CHECK(verdict == "refuted");
+      // Without its mask the row is about the scheme itself, or about nothing.
+      CHECK(checkers.of(replaced(text, mask_lines(text), "")).status == 1);
+    }
+  }
+  // Masks that are none: of another scheme, of the wrong length, without mirror image.
+  const std::string face = text_of_masks(of_face[0]);
+  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme loop")).status == 1);
+  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme midedge")).status == 1);
+  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme blocks")).status == 3);
+  CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 4 2/5 1/5 1/10 1/10")).status == 1);
+  CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 5 2/5 3/10 1/10 1/10 1/10")).status == 1);
+  const std::string blocks = text_of_masks(MasksDocument{"test", std::nullopt, {{3, {}, {{fraction(1, 2)}, {fraction(1, 4)}, {fraction(1, 4)}}}}});
+  CHECK(checkers.of(replaced(blocks, "\n1/4\n1/4\n", "\n1/2\n0\n")).status == 1);  // no mirror image
+}
+
+TEST_CASE("edited certificates of masks and of what fails: the checkers agree, and no false claim passes", "[spectrum][certificate]") {
+  const Checkers checkers;
+  Dice samples(11);
+  const std::vector<std::string> originals{text_of_scheme(SpectrumScheme::midedge, {3, 4}), text_of_masks(twice_around()), text_of_masks(complex_centre(5)),
+                                           text_of_masks(complex_centre(6)), text_of_masks(random_blocks(5, 3, samples)),
+                                           text_of_masks(random_blocks(4, 2, samples)),
+                                           text_of_masks(weights(SpectrumScheme::loop, 7, {fraction(1, 2), fraction(1, 14)}))};
+  constexpr std::uint64_t kSeed = 20261126;
+  Dice dice(kSeed);
+  int malformed = 0, refuted = 0, proved = 0;
+  for (int i = 0; i < 700; ++i) {
+    std::string text = edited(originals[static_cast<std::size_t>(i) % originals.size()], dice);
+    if (dice.below(3) == 0) text = edited(text, dice);
+    INFO("seed " << kSeed << ", edit " << i << ":\n" << text);
+    const Outcome outcome = checkers.of(text);
+    check_truth(text, outcome);
+    ++(outcome.status == 3 ? malformed : outcome.status == 1 ? refuted : proved);
+  }
+  INFO(malformed << " malformed, " << refuted << " refuted, " << proved << " still proved");
+  CHECK(malformed > 100);
+  CHECK(refuted > 200);
+  CHECK(proved > 10);
+}
+
+TEST_CASE("spectrum writes certificates of masks and says what they state", "[spectrum][program][masks]") {
+  const program::Folder folder;
+  const auto write = [&](const std::string& rest) { program::write_bytes(folder.path().string() + "/m.json", R"({"hexact": "masks", "version": 1, )" + rest + "}"); };
+  const auto run = [&](const std::string& arguments) { return program::run(folder, "$hexact spectrum --masks m.json " + arguments); };
+  write(R"("scheme": "doo-sabin", "masks": [{"valence": 5, "weights": ["2/5", "1/20", "1/4", "1/4", "1/20"]}, {"valence": 4, "weights": ["9/16", "3/16", "1/16", "3/16"]}])");
+  program::Run r = run("--json --certificate m.cert");
+  CHECK(r.status == 1);
+  const auto report = nlohmann::json::parse(r.out);
+  CHECK(report["certificate"] == "m.cert");
+  CHECK(report["claims"] == nlohmann::json::parse(R"(["ordering=5", "ring-fails=5", "c1-fails=5", "ordering=4", "ring=4", "c1=4"])"));
+  CHECK(report["left_out"] == nlohmann::json::array());
+  CHECK(program::run(folder, "$check m.cert && $hexact check m.cert").status == 0);
+  CHECK(run("--certificate m.cert").out.find("states ordering=5 ring-fails=5") != std::string::npos);
+  // Blocks whose second eigenvalue winds twice: what is said of their ring is left out.
+  write(R"("masks": [{"valence": 5, "blocks": [[["2/5"]], [["1/20"]], [["1/4"]], [["1/4"]], [["1/20"]]]}])");
+  r = run("--json --certificate b.cert");
+  CHECK(r.status == 1);
+  CHECK(nlohmann::json::parse(r.out)["claims"] == nlohmann::json::array({"ordering=5"}));
+  CHECK(nlohmann::json::parse(r.out)["left_out"] == nlohmann::json::array({"ring-fails=5", "c1-fails=5"}));
+  CHECK(program::run(folder, "$check b.cert && $hexact check b.cert").status == 0);
+  // Nothing is proved: modes 1 and 2 have the same second eigenvalue in intervals that overlap.
+  write(R"("scheme": "doo-sabin", "masks": [{"valence": 7, "weights": ["1/2", "1/12", "1/12", "1/12", "1/12", "1/12", "1/12"]}])");
+  r = run("--json --certificate n.cert");
+  CHECK(r.status == 5);
+  CHECK(nlohmann::json::parse(r.out)["certificate"].is_null());
+  CHECK(program::run(folder, "test ! -e n.cert").status == 0);
+}
