@@ -98,6 +98,58 @@ inline Level tower(int n) {
   return level_of(points, facets);
 }
 
+/// A polynomial surface without symmetry over the integer grid.
+inline Point wave(int i, int j) { return {3 * i + j, 2 * j - i * j, (i * i * 3 + j * 7 + i * j * j) % 11}; }
+
+/// Open meshes with all that a boundary can have: rows and corners of quadrilaterals, a hole with inward corners, a
+/// pentagon and a triangle at the boundary, boundary vertices with 4 to 6 edges, inner vertices of valence 3, 5 and 6,
+/// facets that reach the boundary with single corners, a facet alone.
+inline std::map<std::string, Level> open_samples() {
+  std::map<std::string, Level> samples;
+  samples.emplace("grid", grid(5, 4, wave));
+  const Level base = grid(5, 5, wave);
+  std::vector<std::vector<int>> around;
+  for (const std::uint32_t f : {0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24}) {
+    const auto loop = base.map.loop(f);
+    around.emplace_back(loop.begin(), loop.end());
+  }
+  samples.emplace("hole", level_of({base.points.begin(), base.points.end()}, around));
+  samples.emplace("pentagon", level_of({{0, 0, 0}, {4, 0, 1}, {5, 3, 0}, {2, 5, 2}, {-1, 3, 0}, {8, 0, 1}, {9, 4, 3}, {6, 7, 0}, {1, 8, 1}},
+                                       {{0, 1, 2, 3, 4}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 8, 4}}));
+  for (const int n : {5, 6}) {
+    std::vector<Point> points{{0, 0, 5}};
+    std::vector<std::vector<int>> disc, half;
+    for (int i = 0; i < n; ++i) {
+      points.push_back({(i * i * 5 + 3 * i) % 13, (7 * i) % 11, i * (n - i)});
+      disc.push_back({0, 1 + i, 1 + (i + 1) % n});
+      if (i + 1 < n) half.push_back({0, 1 + i, 2 + i});
+    }
+    samples.emplace("disc of " + std::to_string(n), level_of(points, disc));
+    samples.emplace("fan of " + std::to_string(n - 1), level_of(points, half));
+  }
+  // A corner of a cube: three quadrilaterals around an inner vertex.
+  samples.emplace("corner", level_of({{0, 0, 0}, {2, 0, 0}, {3, 3, 1}, {0, 2, 0}, {1, 3, 4}, {0, 0, 2}, {4, 0, 3}},
+                                     {{0, 1, 2, 3}, {0, 3, 4, 5}, {0, 5, 6, 1}}));
+  samples.emplace("alone", level_of({{0, 0, 0}, {4, 0, 1}, {5, 3, 0}, {2, 5, 2}, {-1, 3, 0}}, {{0, 1, 2, 3, 4}}));
+  return samples;
+}
+
+/// Two meshes as components of one; facets and vertices of the first come first.
+inline Level beside(const Level& a, const Level& b) {
+  std::vector<Point> points(a.points.begin(), a.points.end());
+  points.insert(points.end(), b.points.begin(), b.points.end());
+  std::vector<std::vector<int>> facets;
+  for (const Level* level : {&a, &b}) {
+    for (std::uint32_t f = 0; f < level->map.facet_count(); ++f) {
+      facets.emplace_back();
+      for (const std::uint32_t v : level->map.loop(f)) {
+        facets.back().push_back(static_cast<int>(v + (level == &b ? a.points.size() : 0)));
+      }
+    }
+  }
+  return level_of(points, facets);
+}
+
 inline Level refined(Level level, unsigned steps, MidedgeRule rule, MidedgeBoundary boundary = MidedgeBoundary::close) {
   for (unsigned i = 0; i < steps; ++i) level = midedge_step(level, rule, boundary);
   return level;

@@ -99,8 +99,8 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--color", options->color, "Colour facets by level, angle or reflection lines (PLY, OFF)")->check(CLI::IsMember({"level", "angle", "reflection"}));
   command->add_option("--boundary", options->boundary, "Midedge on open meshes: dual (default), close or drop")
       ->check(CLI::IsMember({"dual", "close", "drop"}));
-  command->add_flag("--keep-size", options->keep_size, "Midedge: scale every level so that it keeps the volume of the input");
-  command->add_flag("--limit", options->limit, "Midedge: write the vertices in their places on the limit surface (closed meshes)");
+  command->add_flag("--keep-size", options->keep_size, "Midedge: scale every level so that each component keeps its volume or, if open, its area");
+  command->add_flag("--limit", options->limit, "Midedge: write the vertices in their places on the limit surface (not under --boundary drop)");
   command->add_option("--then", options->then, "chamfer:K: K chamfer steps after the honeycomb steps");
   command->add_option("--lifts", options->lifts, "Lifts of chamfer steps: auto (default), file=JSON, fair, or fair=product|harmonic|even|ratio");
   command->add_option("--keep", options->keep, "Fraction of every side that a chamfer step keeps, 0.5 (fair: 0.25) if not given; smooth: 1 - 2^-(k+2)");

@@ -91,6 +91,7 @@ nlohmann::ordered_json level_row(const MidedgeMap& map, const PointArray<S>& exa
   row["shortest_edge"] = s.shortest_edge;
   row["max_facet_diameter"] = s.max_facet_diameter;
   row["delta"] = nullptr;
+  row["area"] = fanned_area(map, points);
   row["volume"] = nullptr;
   if (map.closed()) row["volume"] = fanned_volume(map, points, points.front());
   if (!map.closed()) row["pinched_vertices"] = map.pinched_vertex_count();
@@ -162,7 +163,7 @@ MidedgeLevel<Rational> exact_level(const CarryingLevel<S>& level) {
 
 /// Writes the level with its vertices moved to their limits, exactly and then rounded once.
 template <class S>
-WrittenGeometry write_limit_surface(const CarryingLevel<S>& level, const LimitPlan& plan, const std::vector<FacetAddress>& base,
+WrittenGeometry write_limit_surface(const CarryingLevel<S>& level, const MidedgeLimitPlan& plan, const std::vector<FacetAddress>& base,
                                     const SubdivideOptions& options, const Common& common) {
   const OutputChoice output{options.output, output_format(options.output, options.to), {options.color, common.unit}};
   const std::vector<Point3<Rational>> limits = midedge_vertex_limits(exact_level(level), plan);
@@ -190,16 +191,22 @@ CarryingLevel<S> level_of(const Soup& input, MidedgeMap map, const SubdivideOpti
 }
 
 std::string report_text(const nlohmann::ordered_json& report) {
-  std::string text = "level   vertices     facets  max angle     median      longest     shortest       volume  seconds\n";
+  std::string text = "level   vertices     facets  max angle     median      longest     shortest         area       volume  seconds\n";
   for (const auto& row : report["levels"]) {
-    text += fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12.5g} {:>12.5g} {:>12} {:>8.3f}\n", row["level"].get<unsigned>(),
+    text += fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12.5g} {:>12.5g} {:>12.6g} {:>12} {:>8.3f}\n", row["level"].get<unsigned>(),
                         row["vertices"].get<std::size_t>(), row["faces"].get<std::size_t>(),
                         row["max_normal_angle_deg"].get<double>(), row["median_normal_angle_deg"].get<double>(),
                         row["longest_edge"].get<double>(), row["shortest_edge"].get<double>(),
-                        row["volume"].is_null() ? "-" : fmt::format("{:.6g}", row["volume"].get<double>()),
+                        row["area"].get<double>(), row["volume"].is_null() ? "-" : fmt::format("{:.6g}", row["volume"].get<double>()),
                         row["seconds"].get<double>());
     const std::size_t pinched = row.value("pinched_vertices", std::size_t{0});
     if (pinched > 0) text += fmt::format("      {} vertices are pinched: the surface touches itself there\n", pinched);
+  }
+  if (report.contains("size_factors")) {
+    for (std::size_t c = 0; c < report["size_factors"].size(); ++c) {
+      text += fmt::format("component {} keeps its {}: scaled by {:.6g}\n", c, report["size_measures"][c].get<std::string>(),
+                          report["size_factors"][c].get<double>());
+    }
   }
   return text + fmt::format("written to {}\n", report["output"].get<std::string>());
 }
@@ -214,7 +221,11 @@ Outcome report_of(const CarryingLevel<S>& level, const nlohmann::ordered_json& r
   report["levels"] = rows;
   report["output"] = options.output;
   report["certificate"] = nullptr;
-  if (level.keeper) report["size_factors"] = level.keeper->factors();
+  if (level.keeper) {
+    report["size_factors"] = level.keeper->factors();
+    auto& measures = report["size_measures"] = nlohmann::ordered_json::array();
+    for (const SizeMeasure m : level.keeper->measures()) measures.push_back(m == SizeMeasure::volume ? "volume" : "area");
+  }
   return outcome;
 }
 
@@ -245,8 +256,12 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
                               level.mesh.map.pinched_vertex_count()));
   }
   Outcome outcome = report_of(level, rows, options);
-  const LimitPlan limits{plan.rule, plan.boundary, common.max_facets > 0 ? common.max_facets : kMostLimitFacets};
+  const MidedgeLimitPlan limits{plan.rule, plan.boundary, common.max_facets > 0 ? common.max_facets : kMostLimitFacets};
   if (!options.limit_points.empty()) write_midedge_limits(options, exact_level(level), limits);
+  if (options.limit && plan.boundary == MidedgeBoundary::close && !level.mesh.map.closed()) {
+    common.remark("subdivide: under --boundary close each boundary loop contracts to one point, the mean of its vertices, and "
+                  "--limit puts all of them there");
+  }
   const WrittenGeometry written =
       options.limit ? write_limit_surface(level, limits, input.addresses, options, common)
                     : write_level(level, input.addresses, options.output, options, common);

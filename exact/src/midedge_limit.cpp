@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #include "hexact/exact/midedge_limit.hpp"
 
-#include "hexact/kernel/midedge_counts.hpp"
+#include "hexact/exact/midedge_boundary_limit.hpp"
 #include "midedge_operator.hpp"
+#include "midedge_walk.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,49 +34,6 @@ Point operator*(const Rational& w, const Point& a) { return {w * a.x, w * a.y, w
 
 constexpr std::uint32_t kLargestTangent = 512;
 
-/// Walks from half-edge to half-edge through inner quadrilaterals.
-class Walk {
- public:
-  explicit Walk(const MidedgeMap& map) : map_(map) {}
-  /// The half-edge on the other side, if it belongs to a quadrilateral.
-  std::uint32_t across(std::uint32_t h) {
-    const std::uint32_t t = failed_ ? kNoTwin : map_.twin(h);
-    if (t == kNoTwin || map_.facet_size(map_.facet(t)) != 4) {
-      failed_ = true;
-      return h;
-    }
-    return t;
-  }
-  std::uint32_t on(std::uint32_t h, int steps) const {
-    for (int i = 0; i < steps; ++i) h = map_.next(h);
-    return h;
-  }
-  [[nodiscard]] std::uint32_t start_of(std::uint32_t h) const { return map_.origin(h); }
-  [[nodiscard]] bool failed() const { return failed_; }
-
- private:
-  const MidedgeMap& map_;
-  bool failed_ = false;
-};
-
-/// The sector to the left of axis s: `h` runs from (s, 0, 0) to (s − 1, 0, 0) in the first facet across the axis.
-std::array<std::uint32_t, kNet> sector(Walk& walk, std::uint32_t h) {
-  std::array<std::uint32_t, kNet> v{};
-  v[0] = walk.start_of(h);
-  for (std::uint32_t i = 0; i < 2; ++i) {
-    // Facet across the axis: (s, i, 0) → (p, 0, i) → (p, 0, i + 1) → (s, i + 1, 0) → (s, i, 0).
-    std::uint32_t side = walk.across(walk.on(h, 3));  // (s, i, 0) → (s, i + 1, 0) in cell (i, 0)
-    for (std::uint32_t j = 0; j < 2; ++j) {
-      v[3 * (i + 1) + j] = walk.start_of(walk.on(side, 1));
-      v[3 * (i + 1) + j + 1] = walk.start_of(walk.on(side, 2));
-      v[3 * i + j + 1] = walk.start_of(walk.on(side, 3));
-      if (j == 0) side = walk.across(walk.on(side, 2));  // (s, i, 1) → (s, i + 1, 1) in cell (i, 1)
-    }
-    if (i == 0) h = walk.across(walk.on(h, 2));
-  }
-  return v;
-}
-
 double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 
 /// The unit vector along n, and an upper bound of the distance to the unit vector along any m with |m − n| <= radius:
@@ -88,17 +46,6 @@ std::optional<NormalEnclosure> enclosure_of(Point n, const Rational& radius) {
   const double length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
   const double spread = up(up((radius / largest).to_double()) * 2);
   return NormalEnclosure{{d.x / length, d.y / length, d.z / length}, up(spread + 0x1p-49), std::nullopt};
-}
-
-/// Whether each facet has its two rings or touches the boundary.
-bool all_isolated(const MidedgeMap& map, std::size_t facets) {
-  const std::vector<std::uint32_t> start = map.fan_starts();
-  for (std::uint32_t f = 0; f < facets; ++f) {
-    const auto loop = map.loop(f);
-    const bool inner = std::all_of(loop.begin(), loop.end(), [&](std::uint32_t v) { return map.twin(start[v]) != kNoTwin; });
-    if (inner && midedge_net(map, f).empty()) return false;
-  }
-  return true;
 }
 
 /// Im T × Re T for the exact functional.
@@ -154,13 +101,13 @@ std::optional<NormalEnclosure> enclosed_normal(const std::vector<Point>& net, co
 }  // namespace
 
 std::vector<std::uint32_t> midedge_net(const MidedgeMap& map, std::uint32_t f) {
-  Walk walk(map);
+  detail::MidedgeWalk walk(map);
   const std::uint32_t k = map.facet_size(f), start = map.facet_start(f);
   std::vector<std::uint32_t> net;
   net.reserve(kNet * k);
   for (std::uint32_t s = 0; s < k; ++s) {
     // The side from corner s − 1 to corner s; its other half-edge begins axis s.
-    const auto v = sector(walk, walk.across(start + (s + k - 1) % k));
+    const auto v = detail::midedge_sector(walk, walk.across(start + (s + k - 1) % k));
     if (walk.failed()) return {};
     net.insert(net.end(), v.begin(), v.end());
   }
@@ -225,11 +172,7 @@ std::optional<MidedgeLimit> MidedgeLimits::operator()(const MidedgeLevel<Rationa
       limit.point = limit.point + net[kNet * s];
     }
     limit.point = Rational(1) / Rational(static_cast<long>(k)) * limit.point;
-    const std::uint32_t start = level.map.facet_start(f);
-    const bool inner = std::all_of(loop.begin(), loop.end(), [&, h = start](std::uint32_t) mutable {
-      return level.map.twin(h++) != kNoTwin;
-    });
-    if (k == 3 || !inner || tangent.used == 0) return limit;
+    if (k == 3 || tangent.used == 0 || touches_boundary(midedge_boundary_pattern(level.map, f))) return limit;
   } else {
     const std::vector<std::uint32_t> vertices = midedge_net(level.map, f);
     if (vertices.empty()) return std::nullopt;
@@ -253,23 +196,6 @@ std::optional<MidedgeLimit> MidedgeLimits::operator()(const MidedgeLevel<Rationa
     limit.normal = enclosed_normal(net, tangent.turns, std::get<detail::NetVector<FixedInterval>>(tangent.weights), tangent.used);
   }
   return limit;
-}
-
-MidedgeLevel<Rational> isolate_facets(MidedgeLevel<Rational> level, MidedgeRule rule, MidedgeBoundary boundary,
-                                      std::size_t facets, std::size_t most_facets) {
-  if (rule == MidedgeRule::simple) return level;
-  const bool doubled = !level.map.closed() && boundary == MidedgeBoundary::dual;
-  for (unsigned step = 0; step < 12; step += doubled ? 2 : 1) {
-    if (all_isolated(level.map, facets)) break;
-    const MidedgeCounts next = midedge_counts_after(level.map, doubled ? 2 : 1, boundary);
-    if (next.facets > static_cast<double>(most_facets)) {
-      throw ResourceLimit("limit points need further steps of the mesh until two rings of quadrilaterals surround each facet, to " +
-                          std::to_string(static_cast<std::size_t>(next.facets)) + " facets; at most " +
-                          std::to_string(most_facets) + " are allowed");
-    }
-    level = doubled ? midedge_double_step(level, rule) : midedge_step(level, rule, boundary);
-  }
-  return level;
 }
 
 }  // namespace hexact

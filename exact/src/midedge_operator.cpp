@@ -11,27 +11,6 @@
 namespace hexact::detail {
 namespace {
 
-/// A k-gon with sectors of 5 × 5 vertices: enough for two rings after a double step.
-MidedgeMap patch(std::uint32_t k) {
-  constexpr std::uint32_t n = 5;
-  const auto vertex = [&](std::uint32_t s, std::uint32_t i, std::uint32_t j) {
-    return make_id<VertexId>(((s % k) * n + i) * n + j);
-  };
-  FacetLoops loops;
-  for (std::uint32_t s = 0; s < k; ++s) loops.add_corner(vertex(s, 0, 0));
-  loops.close_loop();
-  for (std::uint32_t s = 0; s < k; ++s) {
-    const std::uint32_t p = s + k - 1;
-    for (std::uint32_t i = 0; i + 1 < n; ++i) {
-      loops.add(std::array{vertex(s, i, 0), vertex(p, 0, i), vertex(p, 0, i + 1), vertex(s, i + 1, 0)});
-      for (std::uint32_t j = 0; j + 1 < n; ++j) {
-        loops.add(std::array{vertex(s, i, j), vertex(s, i + 1, j), vertex(s, i + 1, j + 1), vertex(s, i, j + 1)});
-      }
-    }
-  }
-  return MidedgeMap(loops, std::size_t{k} * n * n);
-}
-
 /// atan(1/n) between two partial sums of its alternating series.
 FixedInterval inverse_tangent(int n) {
   Rational sum, power = Rational(1) / Rational(n);
@@ -188,8 +167,35 @@ Complex<FixedInterval> root_of_unity(std::uint32_t m, std::uint32_t k) {
   return {taylor(angle, 0), taylor(angle, 1)};
 }
 
+MidedgeMap midedge_patch(const MidedgeBoundaryPattern& pattern) {
+  const auto k = static_cast<std::uint32_t>(pattern.size());
+  std::vector<std::uint32_t> number(9 * pattern.size(), kNoTwin);
+  std::uint32_t count = 0;
+  const auto vertex = [&](std::uint32_t s, std::uint32_t i, std::uint32_t j) {
+    std::uint32_t& v = number[9 * (s % k) + 3 * i + j];
+    if (v == kNoTwin) v = count++;
+    return make_id<VertexId>(v);
+  };
+  FacetLoops loops;
+  for (std::uint32_t s = 0; s < k; ++s) loops.add_corner(vertex(s, 0, 0));
+  loops.close_loop();
+  for (std::uint32_t s = 0; s < k; ++s) {
+    const std::uint32_t p = s + k - 1;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      if (pattern[p % k] != MidedgeCorner::rim) {
+        loops.add(std::array{vertex(s, i, 0), vertex(p, 0, i), vertex(p, 0, i + 1), vertex(s, i + 1, 0)});
+      }
+      for (std::uint32_t j = 0; j < 2 && pattern[s] == MidedgeCorner::inner; ++j) {
+        loops.add(std::array{vertex(s, i, j), vertex(s, i + 1, j), vertex(s, i + 1, j + 1), vertex(s, i, j + 1)});
+      }
+    }
+  }
+  return MidedgeMap(loops, count);
+}
+
 std::vector<std::array<std::array<Rational, kNet>, kNet>> two_step_blocks(std::uint32_t k) {
-  const MidedgeMap coarse = patch(k), fine = coarse.double_stepped();
+  const MidedgeMap coarse = midedge_patch(MidedgeBoundaryPattern(k, MidedgeCorner::inner));
+  const MidedgeMap fine = coarse.double_stepped();
   const std::vector<std::uint32_t> from = midedge_net(coarse, 0), to = midedge_net(fine, 0);
   HEXACT_INVARIANT(from.size() == kNet * k && to.size() == kNet * k);
   std::vector<std::array<std::array<Rational, kNet>, kNet>> blocks(k);

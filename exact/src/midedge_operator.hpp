@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fixed_interval.hpp"
-#include "hexact/exact/midedge.hpp"
+#include "hexact/exact/midedge_boundary_limit.hpp"
 
 #include <array>
 #include <cstdint>
@@ -16,6 +16,10 @@ template <class T>
 using NetVector = std::array<Complex<T>, kNet>;
 template <class T>
 using NetMatrix = std::array<NetVector<T>, kNet>;
+
+/// A facet with a surrounding of quadrilaterals, two deep wherever the pattern has inner sides and corners: as much as
+/// fixes the same surrounding one double step later. The facet is number 0.
+[[nodiscard]] MidedgeMap midedge_patch(const MidedgeBoundaryPattern& pattern);
 
 /// Blocks of the two-step operator around a k-gon: [d][r][c] is the weight of coarse vertex c of sector d in fine vertex
 /// r of sector 0. Taken from a double step of the six-point rule on unit data.

@@ -3,6 +3,8 @@
 
 #include "surface_statistics_impl.hpp"
 
+#include <cmath>
+
 namespace hexact {
 
 HoneycombStatistics measure(const MidedgeMap& map, std::span<const Point3<double>> points,
@@ -34,6 +36,27 @@ double fanned_volume(const MidedgeMap& map, std::span<const Point3<double>> poin
       },
       [](double a, double b) { return a + b; });
   return six_volumes / 6;
+}
+
+double fanned_area(const MidedgeMap& map, std::span<const Point3<double>> points) {
+  using namespace surface;
+  const double two_areas = tbb::parallel_deterministic_reduce(
+      Range(0, static_cast<std::uint32_t>(map.facet_count()), kGrain), 0.0,
+      [&](const Range& range, double sum) {
+        for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
+          const auto loop = map.loop(f);
+          const double share = 1 / static_cast<double>(loop.size());
+          Vector mean{0, 0, 0};
+          for (const std::uint32_t v : loop) mean = {mean.x + share * points[v].x, mean.y + share * points[v].y, mean.z + share * points[v].z};
+          for (std::size_t i = 0; i < loop.size(); ++i) {
+            const Vector n = cross(minus(points[loop[i]], mean), minus(points[loop[i + 1 < loop.size() ? i + 1 : 0]], mean));
+            sum += std::hypot(n.x, n.y, n.z);
+          }
+        }
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
+  return two_areas / 2;
 }
 
 }  // namespace hexact

@@ -89,6 +89,18 @@ TEST_CASE("limit-points: valid in every arithmetic, in the facets, and tight whe
   }
 }
 
+TEST_CASE("limit-points of open Midedge meshes are valid", "[program][schema]") {
+  const program::Folder folder;
+  program::write_bytes((folder.path() / "g.obj").string(), "v 0 0 0\nv 1 0 0\nv 2 0 1\nv 0 1 0\nv 1 1 0\nv 2 1 1\nf 1 2 5 4\nf 2 3 6 5\n");
+  for (const std::string boundary : {"dual", "close", "drop"}) {
+    for (const std::string scheme : {"midedge", "midedge6"}) {
+      REQUIRE(run(folder, "\"$hexact\" subdivide g.obj --scheme " + scheme + " --boundary " + boundary +
+                              " --levels 2 -o o.off --limit-points l.json").status == 0);
+      CHECK(is_valid(folder, "l.json", "limit-points"));
+    }
+  }
+}
+
 TEST_CASE("snapped limit bounds hold for the levels that the program goes on to make", "[program][schema]") {
   const program::Folder folder;
   REQUIRE(run(folder, "\"$hexact\" make random 12 5 -o r.planes && for l in 2 4; do \"$hexact\" subdivide r.planes --levels $l -o l$l.planes "

@@ -112,16 +112,12 @@ TEST_CASE("what Midedge cannot do is refused with the right status and the eleme
 TEST_CASE("--keep-size keeps the volume on every level", "[app][midedge]") {
   const program::Folder folder;
   program::write_bytes((folder.path() / "cube.obj").string(), kCube);
-  program::write_bytes((folder.path() / "strip.obj").string(), kStrip);
   for (const std::string options : {"--scheme midedge6", "--scheme midedge", "--scheme midedge6 --arithmetic rational"}) {
     const auto r = report(run(folder, "$hexact subdivide cube.obj --keep-size --levels 7 -o a.off --json " + options));
     for (const auto& row : r.at("levels")) CHECK(row.at("volume").get<double>() == Approx(8).epsilon(1e-12));
     REQUIRE(r.at("size_factors").size() == 1);
     CHECK(report(run(folder, "$hexact info a.off --json")).at("vertices") == 768);
   }
-  const auto open = run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --keep-size -o b.off --json");
-  CHECK(open.status == 3);
-  CHECK(open.out.find("\"edge 0-1\"") != std::string::npos);
 }
 
 TEST_CASE("limit points, planes and bounds of the cube's facets, and its mesh on the limit surface", "[app][midedge]") {
@@ -154,10 +150,6 @@ TEST_CASE("limit points, planes and bounds of the cube's facets, and its mesh on
       CHECK(std::stod(word) == document.at("facets")[6 + v].at("point")[c].get<double>());
     }
   }
-  program::write_bytes((folder.path() / "strip.obj").string(), kStrip);
-  CHECK(run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --limit -o b.obj").status == 3);
-  (void)report(run(folder, "$hexact subdivide strip.obj --scheme midedge6 --levels 2 --limit-points l.json -o b.obj --json"));
-  CHECK(nlohmann::json::parse(program::read_bytes((folder.path() / "l.json").string())).at("facets")[0].at("point").is_null());
   CHECK(run(folder, "$hexact subdivide cube.obj --scheme midedge6 --levels 1 --limit-points l.json -o a.obj --max-facets 20").status == 4);
 }
 

@@ -198,7 +198,73 @@ TEST_CASE("keeping the size: every component keeps its volume and its centre", "
   }
 }
 
-TEST_CASE("meshes without a volume to keep are refused", "[midedge]") {
+TEST_CASE("keeping the size: open components keep their area and the mean of their points, closed ones their volume", "[midedge]") {
+  const auto area = [](const Level& level, const SizeKeeper<Rational>& keeper, std::uint32_t component) {
+    double sum = 0;
+    for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
+      if (keeper.component(f) != component) continue;
+      const auto loop = level.map.loop(f);
+      const auto at = [&](std::size_t i) { return level.points[loop[i % loop.size()]]; };
+      Point mean;
+      const Rational share = Rational(1) / Rational(static_cast<long>(loop.size()));
+      for (std::size_t i = 0; i < loop.size(); ++i) mean = {mean.x + share * at(i).x, mean.y + share * at(i).y, mean.z + share * at(i).z};
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const auto from_mean = [&](const Point& p) { return Point{p.x - mean.x, p.y - mean.y, p.z - mean.z}; };
+        const Point p = from_mean(at(i)), q = from_mean(at(i + 1));
+        const Point n{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+        sum += std::sqrt((n.x * n.x + n.y * n.y + n.z * n.z).to_double()) / 2;
+      }
+    }
+    return sum;
+  };
+  for (const MidedgeRule rule : kRules) {
+    for (const MidedgeBoundary policy : {MidedgeBoundary::dual, MidedgeBoundary::close, MidedgeBoundary::drop}) {
+      Level level = beside(golden_mesh("cube"), grid(4, 3, wave));
+      SizeKeeper<Rational> keeper(level);
+      REQUIRE(keeper.measures().size() == 2);
+      CHECK((keeper.measures()[0] == SizeMeasure::volume && keeper.measures()[1] == SizeMeasure::area));
+      const double before = area(level, keeper, 1);
+      CHECK(area(level, keeper, 0) == Approx(24));
+      for (int n = 0; n < 2; ++n) {
+        Level next = policy == MidedgeBoundary::dual ? midedge_double_step(level, rule) : midedge_step(level, rule, policy);
+        keeper.step(level.map, next.map);
+        level = std::move(next);
+        keeper.fit(level);
+        const Level scaled{level.map, keeper.scaled(level)};
+        CHECK(area(scaled, keeper, 1) == Approx(before).epsilon(1e-12));
+        CHECK(keeper.factors()[1] > 1);
+        // About the mean of its points, each once, which so stays; by one factor.
+        Point mean, scaled_mean;
+        std::vector<char> seen(level.points.size(), 0);
+        for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
+          for (const std::uint32_t v : level.map.loop(f)) {
+            if (keeper.component(f) != 1 || seen[v] != 0) continue;
+            seen[v] = 1;
+            const auto add = [](Point& sum, const Point& p) { sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z}; };
+            add(mean, level.points[v]);
+            add(scaled_mean, scaled.points[v]);
+          }
+        }
+        CHECK(mean == scaled_mean);
+        const Rational factor = Rational::from_double(keeper.factors()[1]);
+        const auto loop = level.map.loop(static_cast<std::uint32_t>(6));
+        CHECK(scaled.points[loop[1]].x - scaled.points[loop[0]].x == factor * (level.points[loop[1]].x - level.points[loop[0]].x));
+      }
+      // The cube's factor is that of the cube alone.
+      Level cube = golden_mesh("cube");
+      SizeKeeper<Rational> alone(cube);
+      Level next = refined(cube, level.map.level(), rule);
+      alone.step(cube.map, refined(cube, 1, rule).map);
+      if (policy != MidedgeBoundary::dual) {
+        alone.step(refined(cube, 1, rule).map, next.map);
+        alone.fit(next);
+        CHECK(keeper.factors()[0] == Approx(alone.factors()[0]).epsilon(1e-13));
+      }
+    }
+  }
+}
+
+TEST_CASE("meshes without a size to keep are refused", "[midedge]") {
   const auto code = [](const Level& level) {
     try {
       SizeKeeper<Rational> keeper(level);
@@ -208,6 +274,9 @@ TEST_CASE("meshes without a volume to keep are refused", "[midedge]") {
     return std::string();
   };
   CHECK(code(golden_mesh("cube")).empty());
-  CHECK(code(golden_mesh("open_grid_4x3")) == "HasBoundary edge 0-1");
+  CHECK(code(golden_mesh("open_grid_4x3")).empty());
+  const auto flat = [](int i, int j) { return Point{i + j, 2 * (i + j), 5}; };
+  CHECK(code(grid(3, 2, flat)) == "NoArea facet 0");
+  CHECK(code(beside(golden_mesh("cube"), grid(3, 2, flat))) == "NoArea facet 6");
   CHECK(code(level_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}})) == "NoVolume facet 0");
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/exact/midedge_limit.hpp"
 
+#include "hexact/exact/midedge_facet_limits.hpp"
 #include "midedge_samples.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 
 using namespace hexact;
@@ -24,8 +26,16 @@ MidedgeLimits prepared(MidedgeRule rule, const MidedgeMap& map) {
 
 double distance(const Point3<double>& a, const Point3<double>& b) { return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z); }
 
-Level isolated(const Level& level, MidedgeRule rule) {
-  return isolate_facets(level, rule, MidedgeBoundary::close, level.map.facet_count(), 100000);
+/// Steps of a closed mesh until all facets that it has now have their two rings.
+Level isolated(Level level, MidedgeRule rule) {
+  const auto waiting = [&, facets = level.map.facet_count()] {
+    for (std::uint32_t f = 0; f < facets; ++f) {
+      if (midedge_net(level.map, f).empty()) return true;
+    }
+    return false;
+  };
+  while (waiting()) level = midedge_step(level, rule, MidedgeBoundary::close);
+  return level;
 }
 
 }  // namespace
@@ -118,8 +128,7 @@ TEST_CASE("flat data has its plane for every size, exactly for quadrilaterals", 
       for (int i = 0; i < 8 * n; ++i) facets.push_back({at(ring, i), at(ring + 1, i), at(ring + 1, i + 1), at(ring, i + 1)});
     }
     const Level level = level_of(points, facets);
-    MidedgeLimits limits = prepared(MidedgeRule::six_point, level.map);
-    const auto limit = limits(level, 0);
+    const auto limit = midedge_facet_limits(level, {}, std::array<std::uint32_t, 1>{0}).front();
     REQUIRE((limit && limit->normal));
     const double s = std::sqrt(14.0);
     CHECK(distance(limit->normal->unit, {-2 / s, 3 / s, 1 / s}) < 1e-14);
@@ -128,8 +137,7 @@ TEST_CASE("flat data has its plane for every size, exactly for quadrilaterals", 
 }
 
 TEST_CASE("the cube's facets face along the axes and its corners along the diagonals", "[midedge]") {
-  const Level level = isolate_facets(refined(golden_mesh("cube"), 1, MidedgeRule::six_point), MidedgeRule::six_point,
-                                     MidedgeBoundary::dual, 14, 100000);
+  const Level level = isolated(refined(golden_mesh("cube"), 1, MidedgeRule::six_point), MidedgeRule::six_point);
   const MidedgeLimits limits = prepared(MidedgeRule::six_point, level.map);
   const auto top = limits(level, 1);
   REQUIRE((top && top->normal && top->normal->exact));
@@ -184,18 +192,17 @@ TEST_CASE("quadratic data goes to itself and 5/16 of its Laplacian", "[midedge]"
   }
 }
 
-TEST_CASE("facets without two rings have no limit yet, those at the boundary never", "[midedge]") {
+TEST_CASE("facets without two rings of valence 4 have no limit yet, nor normals at the boundary", "[midedge]") {
   const Level level = grid(5, 5, [](int i, int j) { return Point{i, j, i * j}; });
   MidedgeLimits limits = prepared(MidedgeRule::six_point, level.map);
   CHECK(limits(level, 12));
   CHECK_FALSE(limits(level, 6));
-  const Level later = isolate_facets(level, MidedgeRule::six_point, MidedgeBoundary::dual, 25, 100000);
-  CHECK(limits(later, 12)->point == limits(level, 12)->point);
-  CHECK(limits(later, 6));
-  CHECK_FALSE(limits(later, 0));
-  CHECK_THROWS_AS(isolate_facets(level, MidedgeRule::six_point, MidedgeBoundary::dual, 25, 30), ResourceLimit);
+  CHECK_FALSE(limits(level, 0));
+  // The cube has quadrilaterals all around, but vertices of valence 3.
+  CHECK_FALSE(limits(golden_mesh("cube"), 0));
   // Simple rule: the mean of the corners, and no normal at the boundary.
   const MidedgeLimits simple = prepared(MidedgeRule::simple, level.map);
   CHECK(simple(level, 0)->point == Point{fraction(1, 2), fraction(1, 2), fraction(1, 4)});
   CHECK_FALSE(simple(level, 0)->normal);
+  CHECK(simple(level, 6)->normal);
 }

@@ -27,7 +27,8 @@ struct MidedgeLimit {
 };
 
 /// The vertices around facet f that a limit needs, in sectors of 3 × 3: entry 9s + 3i + j is the vertex i steps along
-/// axis s and j along axis s + 1 from corner s. Empty unless two rings of inner quadrilaterals surround the facet.
+/// axis s and j along axis s + 1 from corner s. Empty unless two rings of quadrilaterals surround the facet whose vertices,
+/// but for the outermost, have valence 4.
 [[nodiscard]] std::vector<std::uint32_t> midedge_net(const MidedgeMap& map, std::uint32_t f);
 
 /// Weight of the vertices (s, i, j) of all sectors together in the limit of the centre, over 243712: the left eigenvector
@@ -44,7 +45,8 @@ struct MidedgeLimit {
 /// and all is rational. That λ is the subdominant eigenvalue of the whole operator is what `spectrum` proves.
 ///
 /// Simple rule: the mean of the corners stays for ever and is the limit; the tangent plane is that of Σ_s ω^-s P(s).
-/// For k = 3 its eigenvalue 1/4 is shared with other modes and there is no normal.
+/// For k = 3 its eigenvalue 1/4 is shared with other modes and there is no normal, nor is there one for facets with a
+/// boundary vertex.
 ///
 /// Facets of more than 512 corners get no normal.
 class MidedgeLimits {
@@ -66,10 +68,5 @@ class MidedgeLimits {
   MidedgeRule rule_;
   std::map<std::uint32_t, std::unique_ptr<const Tangent>> tangents_;
 };
-
-/// The level after so many further steps that every facet before `facets` has its two rings, except those that touch
-/// the boundary for ever. Facets keep their numbers. Throws ResourceLimit where that would take more than `most_facets`.
-[[nodiscard]] MidedgeLevel<Rational> isolate_facets(MidedgeLevel<Rational> level, MidedgeRule rule, MidedgeBoundary boundary,
-                                                    std::size_t facets, std::size_t most_facets);
 
 }  // namespace hexact

@@ -4,30 +4,43 @@
 #include "hexact/kernel/mesh_attributes.hpp"
 #include "hexact/kernel/midedge.hpp"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace hexact {
 
-/// Scales levels so that they keep the volume that the input encloses, component by component.
+/// What a component keeps.
+enum class SizeMeasure : std::uint8_t {
+  volume,  ///< of a closed component
+  area,    ///< of one with a boundary
+};
+
+/// Scales levels so that they keep the size of the input, component by component.
 ///
-/// Midedge meshes shrink: the mean of the vertices, each counted as often as it has edges, stays where it is for ever,
-/// and the surface draws together around it. Level n is scaled about that mean, for each component by one factor
-/// ∛(volume of the input / volume of level n). Steps commute with it, as with every affine map: a scaled level is the
-/// same level of the scaled input, so nothing else changes. Volumes are those of facets fanned from their mean corner,
-/// in floating point; the factor is a double, and over exact numbers it is applied exactly.
+/// Midedge meshes shrink. A component of level n is scaled by one factor about one point:
+/// - closed: ∛(volume of the input / volume of level n), about the mean of the vertices, each counted as often as it has
+///   edges, which stays where it is for ever while the surface draws together around it;
+/// - open: √(area of the input / area of level n), about the mean of the points of level n, which thus stays where level n
+///   has it (open meshes have no mean that all levels share).
+/// Steps commute with it, as with every affine map: a scaled level is the same level of the scaled input, so nothing else
+/// changes. Volumes and areas are those of facets fanned from their mean corner, one surface for both measures, in floating
+/// point; the factor is a double, and over exact numbers it is applied exactly.
 template <class S>
 class SizeKeeper {
  public:
-  /// Throws InvalidInput: HasBoundary (edge), NoVolume (first facet of a component that does not enclose a positive volume).
+  /// Throws InvalidInput: NoVolume, NoArea (first facet of a closed component that does not enclose a positive volume, of an
+  /// open one without area).
   explicit SizeKeeper(const MidedgeLevel<S>& input);
 
   /// Follows one step from level `before` to level `after`.
   void step(const MidedgeMap& before, const MidedgeMap& after);
-  /// Takes the factors of the level that was reached. Throws InvalidInput (NoVolume).
+  /// Takes the factors of the level that was reached. Throws InvalidInput (NoVolume, NoArea).
   void fit(const MidedgeLevel<S>& level);
   /// The factor of each component.
   [[nodiscard]] std::span<const double> factors() const noexcept { return factors_; }
+  /// What each component keeps.
+  [[nodiscard]] std::span<const SizeMeasure> measures() const noexcept { return measures_; }
   /// Component of facet f of the level that was reached.
   [[nodiscard]] std::uint32_t component(std::uint32_t f) const { return component_.of_facet[f]; }
   /// Where a point of a component goes.
@@ -36,11 +49,13 @@ class SizeKeeper {
   [[nodiscard]] PointArray<S> scaled(const MidedgeLevel<S>& level) const;
 
  private:
-  [[nodiscard]] std::vector<double> volumes(const MidedgeLevel<S>& level) const;
+  void centre_open_components(const MidedgeLevel<S>& level);
+  [[nodiscard]] std::vector<double> sizes(const MidedgeLevel<S>& level) const;
 
   FacetNames component_;
+  std::vector<SizeMeasure> measures_;
   std::vector<Point3<S>> centres_;
-  std::vector<double> volumes_, factors_;
+  std::vector<double> sizes_, factors_;
 };
 
 extern template class SizeKeeper<double>;

@@ -33,6 +33,37 @@ inline std::vector<std::uint32_t> component_of_facets(const MidedgeMap& map, std
   return label;
 }
 
+using FacetPolygon = std::vector<Point3<double>>;
+
+inline Point3<double> cross(const Point3<double>& p, const Point3<double>& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+inline Point3<double> sum_of(const FacetPolygon& polygon) {
+  Point3<double> sum{0, 0, 0};
+  for (const auto& p : polygon) sum = plus(sum, p);
+  return sum;
+}
+
+/// Volume between the origin and the polygon, fanned from its mean corner.
+inline double fanned_volume(const FacetPolygon& polygon) {
+  const Point3<double> sum = sum_of(polygon);
+  Point3<double> area{0, 0, 0};
+  for (std::size_t i = 0; i < polygon.size(); ++i) area = plus(area, cross(polygon[i], polygon[(i + 1) % polygon.size()]));
+  return (sum.x * area.x + sum.y * area.y + sum.z * area.z) / (6 * static_cast<double>(polygon.size()));
+}
+
+/// Area of the same fan.
+inline double fanned_area(const FacetPolygon& polygon) {
+  const Point3<double> mean = times(1 / static_cast<double>(polygon.size()), sum_of(polygon));
+  double area = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point3<double> n = cross(minus(polygon[i], mean), minus(polygon[(i + 1) % polygon.size()], mean));
+    area += std::hypot(n.x, n.y, n.z);
+  }
+  return area / 2;
+}
+
 inline double as_double(double x) { return x; }
 inline double as_number(double x, const double*) { return x; }
 
@@ -43,23 +74,40 @@ namespace hexact {
 template <class S>
 SizeKeeper<S>::SizeKeeper(const MidedgeLevel<S>& input) {
   const MidedgeMap& map = input.map;
-  for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
-    if (map.twin(h) != kNoTwin) continue;
-    throw InvalidInput("HasBoundary", "has a facet on one side only: an open mesh encloses no volume to be kept",
-                       edge_name(map.origin(h), map.target(h)));
-  }
   std::uint32_t count = 0;
   component_.of_facet = detail::component_of_facets(map, count);
+  measures_.assign(count, SizeMeasure::volume);
   centres_.resize(count);
   std::vector<int> corners(count, 0);
   for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
     const std::uint32_t c = component(map.facet(h));
+    if (map.twin(h) == kNoTwin) measures_[c] = SizeMeasure::area;
     centres_[c] = detail::plus(centres_[c], input.points[map.origin(h)]);
     ++corners[c];
   }
   for (std::uint32_t c = 0; c < count; ++c) centres_[c] = detail::times(S(1) / S(corners[c]), centres_[c]);
-  volumes_ = volumes(input);
+  centre_open_components(input);
+  sizes_ = sizes(input);
   factors_.assign(count, 1);
+}
+
+/// Each vertex once: by the first of its half-edges.
+template <class S>
+void SizeKeeper<S>::centre_open_components(const MidedgeLevel<S>& level) {
+  const std::vector<std::uint32_t> first = detail::first_half_edges(level.map).of_vertex;
+  std::vector<int> count(centres_.size(), 0);
+  for (std::size_t c = 0; c < centres_.size(); ++c) {
+    if (measures_[c] == SizeMeasure::area) centres_[c] = {};
+  }
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const std::uint32_t c = component(level.map.facet(first[v]));
+    if (measures_[c] != SizeMeasure::area) continue;
+    centres_[c] = detail::plus(centres_[c], level.points[v]);
+    ++count[c];
+  }
+  for (std::size_t c = 0; c < centres_.size(); ++c) {
+    if (measures_[c] == SizeMeasure::area) centres_[c] = detail::times(S(1) / S(count[c]), centres_[c]);
+  }
 }
 
 template <class S>
@@ -69,30 +117,23 @@ void SizeKeeper<S>::step(const MidedgeMap& before, const MidedgeMap& after) {
 
 /// Relative to the centre of each component, so that a distant one loses no digits.
 template <class S>
-std::vector<double> SizeKeeper<S>::volumes(const MidedgeLevel<S>& level) const {
-  using detail::as_double;
-  using Vector = Point3<double>;
+std::vector<double> SizeKeeper<S>::sizes(const MidedgeLevel<S>& level) const {
   std::vector<double> sum(centres_.size(), 0);
+  std::vector<Point3<double>> polygon;
   for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
-    const auto loop = level.map.loop(f);
-    const auto corner = [&](std::size_t i) {
-      const Point3<S> p = detail::minus(level.points[loop[i % loop.size()]], centres_[component(f)]);
-      return Vector{as_double(p.x), as_double(p.y), as_double(p.z)};
-    };
-    Vector p = corner(0), centre{0, 0, 0}, area{0, 0, 0};
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vector q = corner(i + 1);
-      centre = detail::plus(centre, p);
-      area = detail::plus(area, Vector{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x});
-      p = q;
+    const std::uint32_t c = component(f);
+    polygon.clear();
+    for (const std::uint32_t v : level.map.loop(f)) {
+      const Point3<S> p = detail::minus(level.points[v], centres_[c]);
+      polygon.push_back({detail::as_double(p.x), detail::as_double(p.y), detail::as_double(p.z)});
     }
-    sum[component(f)] += (centre.x * area.x + centre.y * area.y + centre.z * area.z) / static_cast<double>(loop.size());
+    sum[c] += measures_[c] == SizeMeasure::volume ? detail::fanned_volume(polygon) : detail::fanned_area(polygon);
   }
   for (std::size_t c = 0; c < sum.size(); ++c) {
-    sum[c] /= 6;
     if (sum[c] > 0 && std::isfinite(sum[c])) continue;
     std::uint32_t f = 0;
     while (component(f) != c) ++f;
+    if (measures_[c] == SizeMeasure::area) throw InvalidInput("NoArea", "its component has no area that could be kept", facet_name(f));
     throw InvalidInput("NoVolume", "its component encloses no positive volume that could be kept", facet_name(f));
   }
   return sum;
@@ -100,8 +141,12 @@ std::vector<double> SizeKeeper<S>::volumes(const MidedgeLevel<S>& level) const {
 
 template <class S>
 void SizeKeeper<S>::fit(const MidedgeLevel<S>& level) {
-  const std::vector<double> now = volumes(level);
-  for (std::size_t c = 0; c < now.size(); ++c) factors_[c] = std::cbrt(volumes_[c] / now[c]);
+  centre_open_components(level);
+  const std::vector<double> now = sizes(level);
+  for (std::size_t c = 0; c < now.size(); ++c) {
+    const double ratio = sizes_[c] / now[c];
+    factors_[c] = measures_[c] == SizeMeasure::volume ? std::cbrt(ratio) : std::sqrt(ratio);
+  }
 }
 
 template <class S>

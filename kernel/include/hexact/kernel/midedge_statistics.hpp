@@ -20,4 +20,7 @@ namespace hexact {
 /// counter-clockwise from outside. In floating point, summed relative to `origin`; the order of the sum is fixed.
 [[nodiscard]] double fanned_volume(const MidedgeMap& map, std::span<const Point3<double>> points, const Point3<double>& origin);
 
+/// Area of the facets, fanned from the mean of their corners; independent of the number of threads.
+[[nodiscard]] double fanned_area(const MidedgeMap& map, std::span<const Point3<double>> points);
+
 }  // namespace hexact

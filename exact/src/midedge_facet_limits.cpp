@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: LGPL-3.0-or-later
+#include "hexact/exact/midedge_facet_limits.hpp"
+
+#include "hexact/exact/midedge_boundary_limit.hpp"
+#include "hexact/kernel/midedge_counts.hpp"
+#include "hexact/kernel/midedge_part.hpp"
+#include "hexact/kernel/parallel.hpp"
+
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace hexact {
+namespace {
+
+using Level = MidedgeLevel<Rational>;
+using Point = Point3<Rational>;
+using FacetLimit = std::optional<MidedgeLimit>;
+
+constexpr std::size_t kGrain = 16;
+constexpr unsigned kMostDropSteps = 8;     ///< a facet that has no two rings by then never gets them
+constexpr unsigned kMostCloseSteps = 200;  ///< a run of n boundary vertices with two edges lasts n steps
+
+/// What is known of a facet on some level.
+enum class Stage : std::uint8_t {
+  waiting,      ///< further steps are needed
+  inner,        ///< MidedgeLimits has its limit
+  at_boundary,  ///< MidedgeBoundaryLimits has it
+  mean,         ///< the mean of its corners is the limit, without normal
+  never,
+};
+
+Stage stage_of(const MidedgeMap& map, std::uint32_t f, const MidedgeLimitPlan& plan) {
+  const MidedgeBoundaryPattern pattern = midedge_boundary_pattern(map, f);
+  const bool simple = plan.rule == MidedgeRule::simple;
+  if (!touches_boundary(pattern)) return simple || !midedge_net(map, f).empty() ? Stage::inner : Stage::waiting;
+  if (plan.boundary == MidedgeBoundary::drop) return simple ? Stage::mean : Stage::never;
+  if (stands_alone(pattern)) return Stage::mean;
+  if (plan.boundary == MidedgeBoundary::close) return Stage::waiting;
+  if (simple) return Stage::mean;
+  return midedge_boundary_net(map, f) ? Stage::at_boundary : Stage::waiting;
+}
+
+Point mean_of(const Level& level, std::span<const std::uint32_t> vertices) {
+  Point sum;
+  for (const std::uint32_t v : vertices) {
+    const Point& p = level.points[v];
+    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  }
+  const Rational n(static_cast<long>(vertices.size()));
+  return {sum.x / n, sum.y / n, sum.z / n};
+}
+
+/// Facets of a level, and where their limits go in the result.
+struct Pending {
+  std::vector<std::uint32_t> facets, slots;
+};
+
+/// Limits of facets, level by level.
+class LimitSearch {
+ public:
+  LimitSearch(const MidedgeLimitPlan& plan, std::size_t count) : plan_(plan), inner_(plan.rule), results_(count) {}
+
+  std::vector<FacetLimit> run(const Level& level, std::span<const std::uint32_t> facets) {
+    Pending pending{{facets.begin(), facets.end()}, std::vector<std::uint32_t>(facets.size())};
+    std::iota(pending.slots.begin(), pending.slots.end(), 0u);
+    std::optional<Level> part;
+    for (unsigned steps = 0;; steps += 2) {
+      pending = settle(part ? *part : level, pending);
+      if (pending.facets.empty() || given_up(steps, part ? *part : level, pending)) return std::move(results_);
+      part = stepped_part(part ? *part : level, pending.facets);
+      std::iota(pending.facets.begin(), pending.facets.end(), 0u);
+    }
+  }
+
+ private:
+  [[nodiscard]] Pending settle(const Level& level, const Pending& pending);
+  [[nodiscard]] FacetLimit limit(const Level& level, std::uint32_t f, Stage stage) const;
+  [[nodiscard]] bool given_up(unsigned steps, const Level& level, const Pending& pending);
+  [[nodiscard]] Level stepped_part(const Level& level, std::span<const std::uint32_t> facets) const;
+
+  const MidedgeLimitPlan plan_;
+  MidedgeLimits inner_;
+  MidedgeBoundaryLimits at_boundary_;
+  std::vector<FacetLimit> results_;
+};
+
+/// Takes the limits that the level gives; returns what has to wait.
+Pending LimitSearch::settle(const Level& level, const Pending& pending) {
+  const std::vector<std::uint32_t>& facets = pending.facets;
+  std::vector<Stage> stage(facets.size());
+  for_ranges(facets.size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i != end; ++i) stage[i] = stage_of(level.map, facets[i], plan_);
+  });
+  Pending waiting;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    if (stage[i] == Stage::inner) inner_.prepare(level.map.facet_size(facets[i]));
+    if (stage[i] == Stage::at_boundary) at_boundary_.prepare(midedge_boundary_pattern(level.map, facets[i]));
+    if (stage[i] != Stage::waiting) continue;
+    waiting.facets.push_back(facets[i]);
+    waiting.slots.push_back(pending.slots[i]);
+  }
+  for_ranges(facets.size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i != end; ++i) {
+      if (stage[i] != Stage::waiting) results_[pending.slots[i]] = limit(level, facets[i], stage[i]);
+    }
+  });
+  return waiting;
+}
+
+FacetLimit LimitSearch::limit(const Level& level, std::uint32_t f, Stage stage) const {
+  switch (stage) {
+    case Stage::inner:
+      return inner_(level, f);
+    case Stage::at_boundary:
+      if (auto point = at_boundary_(level, f)) return MidedgeLimit{std::move(*point), std::nullopt};
+      return std::nullopt;
+    case Stage::mean:
+      return MidedgeLimit{mean_of(level, level.map.loop(f)), std::nullopt};
+    case Stage::waiting:
+    case Stage::never:
+      break;
+  }
+  return std::nullopt;
+}
+
+bool LimitSearch::given_up(unsigned steps, const Level& level, const Pending& pending) {
+  switch (plan_.boundary) {
+    case MidedgeBoundary::dual:
+      HEXACT_INVARIANT(steps < 12);
+      return false;
+    case MidedgeBoundary::drop:
+      return steps >= kMostDropSteps;
+    case MidedgeBoundary::close:
+      break;
+  }
+  if (steps < kMostCloseSteps) return false;
+  if (plan_.rule == MidedgeRule::six_point) {
+    throw ResourceLimit("limit points need more than " + std::to_string(kMostCloseSteps) +
+                        " further steps: the mesh has long runs of boundary vertices with two edges");
+  }
+  for (std::size_t i = 0; i < pending.facets.size(); ++i) results_[pending.slots[i]] = limit(level, pending.facets[i], Stage::mean);
+  return true;
+}
+
+/// Two steps of the facets and two rings around them; they become the first facets.
+Level LimitSearch::stepped_part(const Level& level, std::span<const std::uint32_t> facets) const {
+  MidedgePart part = midedge_part(level.map, facets, 2);
+  const MidedgeCounts next = midedge_counts_after(part.map, 2, plan_.boundary);
+  if (next.facets > static_cast<double>(plan_.most_facets)) {
+    throw ResourceLimit("limit points need further steps of the mesh until two rings of quadrilaterals surround each facet, to " +
+                        std::to_string(static_cast<std::size_t>(next.facets)) + " facets; at most " +
+                        std::to_string(plan_.most_facets) + " are allowed");
+  }
+  Level cut{std::move(part.map), {}};
+  for (const std::uint32_t v : part.vertices) cut.points.push_back(level.points[v]);
+  if (plan_.boundary == MidedgeBoundary::dual) return midedge_double_step(cut, plan_.rule);
+  return midedge_step(midedge_step(cut, plan_.rule, plan_.boundary), plan_.rule, plan_.boundary);
+}
+
+constexpr std::uint32_t kNoFacet = UINT32_MAX;
+
+/// The facets of a next level that vertices and edges of this one became.
+struct Successors {
+  std::vector<std::uint32_t> of_vertex, of_edge;
+};
+
+Successors successors(const MidedgeMap& before, const MidedgeMap& after) {
+  Successors result{std::vector<std::uint32_t>(before.vertex_count(), kNoFacet), std::vector<std::uint32_t>(before.edge_count(), kNoFacet)};
+  for (auto f = static_cast<std::uint32_t>(before.facet_count()); f < after.facet_count(); ++f) {
+    const FacetAddress address = after.address(f);
+    auto& list = address.level == before.level() + 1 ? result.of_vertex : result.of_edge;
+    list[index(*address.parent)] = f;
+  }
+  return result;
+}
+
+/// The facet that stands in the middle of f1, e1, f2, …, fm around a boundary vertex. `start` begins its fan.
+std::uint32_t middle_of_fan(const MidedgeMap& map, std::uint32_t start, const RawVector<std::uint32_t>& edge, const Successors& next) {
+  std::vector<std::uint32_t> fan;
+  for (std::uint32_t h = start; h != kNoTwin; h = map.twin(map.previous(h))) fan.push_back(h);
+  const std::size_t half = fan.size() / 2;
+  return fan.size() % 2 == 1 ? map.facet(fan[half]) : next.of_edge[edge[fan[half]]];
+}
+
+std::vector<Point> closed_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+  std::vector<std::uint32_t> facets(level.map.vertex_count());
+  std::iota(facets.begin(), facets.end(), static_cast<std::uint32_t>(level.map.facet_count()));
+  std::vector<Point> points;
+  for (auto& limit : midedge_facet_limits(midedge_step(level, plan.rule, MidedgeBoundary::close), plan, facets)) {
+    HEXACT_INVARIANT(limit.has_value());
+    points.push_back(std::move(limit->point));
+  }
+  return points;
+}
+
+std::vector<Point> dual_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+  const MidedgeMap& map = level.map;
+  const Level next = midedge_double_step(level, plan.rule);
+  const Successors became = successors(map, next.map);
+  const std::vector<std::uint32_t> start = map.fan_starts();
+  const RawVector<std::uint32_t> edge = map.edge_numbers();
+  // Several boundary vertices may go to the limit of one facet.
+  std::vector<std::uint32_t> facets, slot_of_facet(next.map.facet_count(), kNoFacet), slot_of_vertex;
+  for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {
+    const bool inner = map.twin(start[v]) != kNoTwin;
+    const std::uint32_t f = inner ? became.of_vertex[v] : middle_of_fan(map, start[v], edge, became);
+    if (slot_of_facet[f] == kNoFacet) {
+      slot_of_facet[f] = static_cast<std::uint32_t>(facets.size());
+      facets.push_back(f);
+    }
+    slot_of_vertex.push_back(slot_of_facet[f]);
+  }
+  const std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets);
+  std::vector<Point> points;
+  for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {
+    const FacetLimit& limit = limits[slot_of_vertex[v]];
+    if (!limit) {
+      throw ResourceLimit(vertex_name(v) + " goes to the limit of a facet at the boundary whose limit depends on more than " +
+                          std::to_string(MidedgeBoundaryLimits::kLargestNet) + " vertices: too many for exact elimination");
+    }
+    points.push_back(limit->point);
+  }
+  return points;
+}
+
+/// Sends the vertices of each boundary loop to their mean.
+void contract_boundary_loops(const Level& level, std::vector<Point>& points) {
+  const MidedgeMap& map = level.map;
+  std::vector<std::uint32_t> leaving(map.vertex_count(), kNoTwin);
+  for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
+    if (map.twin(h) == kNoTwin) leaving[map.origin(h)] = h;
+  }
+  for (std::uint32_t v = 0; v < leaving.size(); ++v) {
+    std::vector<std::uint32_t> loop;
+    for (std::uint32_t w = v; leaving[w] != kNoTwin;) {
+      loop.push_back(w);
+      w = map.target(std::exchange(leaving[w], kNoTwin));
+    }
+    if (loop.empty()) continue;
+    const Point mean = mean_of(level, loop);
+    for (const std::uint32_t w : loop) points[w] = mean;
+  }
+}
+
+std::vector<Point> close_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+  const MidedgeMap& map = level.map;
+  const Level next = midedge_step(level, plan.rule, MidedgeBoundary::close);
+  const Successors became = successors(map, next.map);
+  const std::vector<std::uint32_t> start = map.fan_starts();
+  std::vector<std::uint32_t> vertices, facets;
+  for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {
+    if (map.twin(start[v]) == kNoTwin) continue;
+    vertices.push_back(v);
+    facets.push_back(became.of_vertex[v]);
+  }
+  std::vector<Point> points(map.vertex_count());
+  std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    HEXACT_INVARIANT(limits[i].has_value());
+    points[vertices[i]] = std::move(limits[i]->point);
+  }
+  contract_boundary_loops(level, points);
+  return points;
+}
+
+}  // namespace
+
+std::vector<std::optional<MidedgeLimit>> midedge_facet_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
+                                                              std::span<const std::uint32_t> facets) {
+  return LimitSearch(plan, facets.size()).run(level, facets);
+}
+
+std::vector<Point3<Rational>> midedge_vertex_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan) {
+  if (level.map.closed()) return closed_vertex_limits(level, plan);
+  if (plan.boundary == MidedgeBoundary::dual) return dual_vertex_limits(level, plan);
+  if (plan.boundary == MidedgeBoundary::close) return close_vertex_limits(level, plan);
+  std::uint32_t h = 0;
+  while (level.map.twin(h) != kNoTwin) ++h;
+  throw InvalidInput("HasBoundary", "has a facet on one side only: under the policy drop nothing is known of the limits of boundary vertices; "
+                     "use dual or close", edge_name(level.map.origin(h), level.map.target(h)));
+}
+
+}  // namespace hexact
