@@ -186,16 +186,17 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
-Certificate read_certificate(const std::string& path) {
-  const std::string bytes = read_file(path);
+Certificate read_certificate(const std::string& path) { return parse_certificate(read_file(path), path); }
+
+Certificate parse_certificate(std::string_view bytes, const std::string& name) {
   const std::size_t last = bytes.rfind("\nsha256 ");
-  const Text signed_bytes = Text(bytes).substr(0, last == std::string::npos ? 0 : last + 1);
+  const Text signed_bytes = bytes.substr(0, last == std::string::npos ? 0 : last + 1);
   auto expected = std::async(std::launch::async, [&] { return sha256(signed_bytes); });  // half the time of reading
-  Scanner in(bytes, path);
+  Scanner in(bytes, name);
   std::string digest;
   Certificate c = parse(in, digest);
   if (expected.get() != digest) in.fail("the digest does not match: the file was changed");
-  if (c.claims.empty()) throw Malformed(path, 0, "has no claims; `hexact certify` adds them");
+  if (c.claims.empty()) throw Malformed(name, 0, "has no claims; `hexact certify` adds them");
   return c;
 }
 

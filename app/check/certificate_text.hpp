@@ -56,6 +56,7 @@ struct Certificate {
 // Throws Malformed.
 std::string read_file(const std::string& path);
 Certificate read_certificate(const std::string& path);
+Certificate parse_certificate(std::string_view bytes, const std::string& name);
 
 // Splits text into words over spaces, line ends and `#` comments, and counts the lines.
 class Scanner {

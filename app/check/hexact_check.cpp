@@ -143,7 +143,8 @@ std::string quoted(const std::string& s) {
 // A certificate of spectra: its claims in the form of `run` below.
 int run_spectrum(const std::string& path, bool json) {
   std::string claims, lines, witness;
-  for (const auto& [name, fault] : spectrum_faults(read_spectrum(path))) {
+  const SpectrumFile file = read_spectrum(path);
+  for (const auto& [name, fault] : spectrum_faults(file)) {
     const char* const verdict = fault.empty() ? "proved" : "refuted";
     claims += (claims.empty() ? "" : ", ") + quoted(name) + ": " + quoted(verdict);
     lines += name + ": " + verdict + (fault.empty() ? "" : ": " + fault) + "\n";
@@ -152,8 +153,8 @@ int run_spectrum(const std::string& path, bool json) {
   if (claims.empty()) throw Malformed(path, 0, "states no claims");
   const char* const verdict = witness.empty() ? "proved" : "refuted";
   const std::string tail = witness.empty() ? "" : ", \"witness\": " + quoted(witness);
-  if (json) std::printf("{\"verdict\": %s, \"claims\": {%s}%s}\n", quoted(verdict).c_str(), claims.c_str(), tail.c_str());
-  else std::printf("%s%s\n", lines.c_str(), verdict);
+  if (json) std::printf("{\"verdict\": %s, \"claims\": {%s}%s, %s}\n", quoted(verdict).c_str(), claims.c_str(), tail.c_str(), subject_json(file).c_str());
+  else std::printf("%s%s%s\n", subject_text(file).c_str(), lines.c_str(), verdict);
   return std::fflush(stdout) != 0 ? 3 : witness.empty() ? 0 : 1;
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace check {
@@ -17,6 +18,7 @@ struct Mesh {
 
 // Throws Malformed.
 Mesh read_mesh(const std::string& path);
+Mesh parse_mesh(std::string_view bytes, const std::string& name);
 
 // What is wrong, or nothing: the same loops in the same order, each coordinate the double nearest to the exact one,
 // ties to even.

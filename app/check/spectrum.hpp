@@ -58,6 +58,9 @@ bool is_spectrum_file(const std::string& path);
 // Throws Malformed.
 SpectrumFile read_spectrum(const std::string& path);
 SpectrumFile parse_spectrum(std::string_view bytes, const std::string& name);
+// What the claims are about: the scheme, and the masks if there are some. As JSON members, and as lines.
+std::string subject_json(const SpectrumFile& file);
+std::string subject_text(const SpectrumFile& file);
 // For every claim of the file its name and what is wrong with its proof; empty if nothing is.
 std::vector<std::pair<std::string, std::string>> spectrum_faults(const SpectrumFile& file);
 

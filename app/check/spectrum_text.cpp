@@ -11,6 +11,7 @@
 namespace check {
 namespace {
 
+const std::vector<std::string> kSchemes{"midedge", "midedge6", "loop", "catmull-clark", "doo-sabin", "blocks"};
 const std::vector<std::string> kStatements{"ordering", "ring", "c1", "ordering-fails", "ring-fails", "c1-fails"};
 
 class SpectrumReader {
@@ -18,10 +19,9 @@ class SpectrumReader {
   SpectrumReader(std::string_view bytes, const std::string& path) : in_(bytes, path) {}
   SpectrumFile read() {
     next(), word("hexact-spectrum"), word("1"), word("scheme");
-    const std::vector<std::string> names{"midedge", "midedge6", "loop", "catmull-clark", "doo-sabin", "blocks"};
-    const auto found = std::find(names.begin(), names.end(), word_);
-    if (found == names.end()) in_.fail("there is no scheme " + std::string(word_));
-    file_.scheme = static_cast<Scheme>(found - names.begin());
+    const auto found = std::find(kSchemes.begin(), kSchemes.end(), word_);
+    if (found == kSchemes.end()) in_.fail("there is no scheme " + std::string(word_));
+    file_.scheme = static_cast<Scheme>(found - kSchemes.begin());
     next();
     const bool names_claims = word_ == "claims";
     std::vector<std::string> claims;
@@ -118,7 +118,37 @@ class SpectrumReader {
   SpectrumFile file_;
 };
 
+const std::string& name_of(Scheme scheme) { return kSchemes[static_cast<std::size_t>(scheme)]; }
+
+std::string json_array(const std::vector<mpq_class>& numbers) {
+  std::string out;
+  for (const mpq_class& x : numbers) out += (out.empty() ? "\"" : ", \"") + x.get_str() + "\"";
+  return "[" + out + "]";
+}
+
 }  // namespace
+
+std::string subject_json(const SpectrumFile& file) {
+  std::string masks;
+  for (const ListedRow& row : file.rows) {
+    if (!row.mask) continue;
+    std::string blocks;
+    for (const auto& block : row.mask->blocks) blocks += (blocks.empty() ? "" : ", ") + json_array(block);
+    masks += (masks.empty() ? "\"" : ", \"") + std::to_string(row.k) + "\": " + (blocks.empty() ? json_array(row.mask->weights) : "[" + blocks + "]");
+  }
+  return "\"scheme\": \"" + name_of(file.scheme) + "\"" + (masks.empty() ? "" : ", \"masks\": {" + masks + "}");
+}
+
+std::string subject_text(const SpectrumFile& file) {
+  std::string out = "scheme: " + name_of(file.scheme) + "\n";
+  for (const ListedRow& row : file.rows) {
+    if (!row.mask) continue;
+    out += "mask " + std::to_string(row.k) + ":";
+    for (const mpq_class& x : row.mask->weights) out += " " + x.get_str();
+    out += row.mask->blocks.empty() ? "\n" : " blocks, see --json\n";
+  }
+  return out;
+}
 
 bool is_spectrum_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);

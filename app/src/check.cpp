@@ -16,12 +16,40 @@ struct CheckOptions {
   std::string certificate, mesh;
 };
 
+nlohmann::ordered_json texts(const std::vector<Rational>& numbers) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Rational& x : numbers) out.push_back(x.str());
+  return out;
+}
+
+/// The report says what the claims are about, as a file does not vouch for the masks that its user has in mind.
+Outcome check_spectrum(const std::string& path) {
+  const SpectrumCertificate certificate = io::read_spectrum_certificate(path);
+  if (certificate.claims.empty()) throw InvalidInput("NoClaims", path + " states no claims", "");
+  Outcome outcome = claim_outcome(verify(certificate));
+  const std::string scheme = certificate.scheme ? name_of(*certificate.scheme) : "blocks";
+  nlohmann::ordered_json masks = nlohmann::ordered_json::object();
+  std::string text = "scheme: " + scheme + "\n";
+  for (const SpectrumCertificate::Row& row : certificate.rows) {
+    if (!row.mask) continue;
+    const std::string k = std::to_string(row.valence);
+    text += "mask " + k + ":";
+    for (const Rational& w : row.mask->weights) text += " " + w.str();
+    if (!row.mask->blocks.empty()) text += " blocks, see --json";
+    text += "\n";
+    masks[k] = texts(row.mask->weights);
+    for (const auto& block : row.mask->blocks) masks[k].push_back(texts(block));
+  }
+  outcome.report["scheme"] = scheme;
+  if (!masks.empty()) outcome.report["masks"] = std::move(masks);
+  outcome.text = text + outcome.text;
+  return outcome;
+}
+
 Outcome check(const CheckOptions& options, const Common& common) {
   if (io::is_spectrum_certificate_file(options.certificate)) {
     if (!options.mesh.empty()) throw UsageError("a spectral certificate has no mesh to compare");
-    const SpectrumCertificate certificate = io::read_spectrum_certificate(options.certificate);
-    if (certificate.claims.empty()) throw InvalidInput("NoClaims", options.certificate + " states no claims", "");
-    return claim_outcome(verify(certificate));
+    return check_spectrum(options.certificate);
   }
   const io::Geometry geometry = io::read_geometry(options.certificate);
   const auto* certificate = std::get_if<Certificate>(&geometry);
