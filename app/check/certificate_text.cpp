@@ -14,6 +14,8 @@ namespace {
 
 using Text = std::string_view;
 
+bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
 bool whole_integer(Text w, std::int64_t& x) {
   const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), x);
   return !w.empty() && error == std::errc() && end == w.data() + w.size();
@@ -189,20 +191,30 @@ std::string read_file(const std::string& path) {
 Certificate read_certificate(const std::string& path) { return parse_certificate(read_file(path), path); }
 
 Certificate parse_certificate(std::string_view bytes, const std::string& name) {
-  const std::size_t last = bytes.rfind("\nsha256 ");
-  const Text signed_bytes = bytes.substr(0, last == std::string::npos ? 0 : last + 1);
+  const Text signed_bytes = bytes.substr(0, last_line(bytes));
   auto expected = std::async(std::launch::async, [&] { return sha256(signed_bytes); });  // half the time of reading
   Scanner in(bytes, name);
   std::string digest;
   Certificate c = parse(in, digest);
+  if (!has_digest(bytes)) in.fail("bytes follow the digest");
   if (expected.get() != digest) in.fail("the digest does not match: the file was changed");
   if (c.claims.empty()) throw Malformed(name, 0, "has no claims; `hexact certify` adds them");
   return c;
 }
 
+std::size_t last_line(std::string_view bytes) {
+  if (!bytes.empty() && bytes.back() == '\n') bytes.remove_suffix(1);
+  return bytes.rfind('\n') + 1;  // 0 if there is none
+}
+
+bool has_digest(std::string_view bytes) {
+  std::string_view line = bytes.substr(last_line(bytes));
+  while (!line.empty() && is_space(line[0])) line.remove_prefix(1);
+  return line.substr(0, 6) == "sha256";
+}
+
 std::string_view Scanner::word() {
   const char *p = rest_.data(), *const end = p + rest_.size();
-  const auto is_space = [](char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; };
   for (; p != end && (is_space(*p) || *p == '#'); p += p != end ? 1 : 0) {
     if (*p == '#') p = std::find(p, end, '\n');
     if (p == end) break;

@@ -58,10 +58,17 @@ std::string read_file(const std::string& path);
 Certificate read_certificate(const std::string& path);
 Certificate parse_certificate(std::string_view bytes, const std::string& name);
 
+// Where the last line begins, which is that of the digest; all bytes before it are signed.
+std::size_t last_line(std::string_view bytes);
+// Whether the last line begins with the word sha256.
+bool has_digest(std::string_view bytes);
+
 // Splits text into words over spaces, line ends and `#` comments, and counts the lines.
 class Scanner {
  public:
-  Scanner(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {}
+  Scanner(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {
+    if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // a byte order mark
+  }
   [[noreturn]] void fail(const std::string& what) const { throw Malformed(file_, line_, what); }
   std::string_view word();                                     // empty at the end
   std::int64_t integer(std::int64_t low, std::int64_t high);   // the next word, an integer within these bounds

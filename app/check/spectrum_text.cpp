@@ -40,10 +40,14 @@ class SpectrumReader {
       }
     }
     for (const std::string& c : claims) add_claim(c);
-    need("sha256"), (void)in_.word();
+    need("sha256"), next();
+    digest_ = word_;
     if (!in_.word().empty()) in_.fail("bytes follow the digest");
     return std::move(file_);
   }
+
+  // The word behind sha256, once all is read.
+  std::string_view digest() const { return digest_; }
 
  private:
   void next() { word_ = in_.word(); }
@@ -114,7 +118,7 @@ class SpectrumReader {
   }
 
   Scanner in_;
-  std::string_view word_;
+  std::string_view word_, digest_;
   SpectrumFile file_;
 };
 
@@ -158,12 +162,11 @@ bool is_spectrum_file(const std::string& path) {
 }
 
 SpectrumFile parse_spectrum(std::string_view bytes, const std::string& name) {
-  SpectrumFile file = SpectrumReader(bytes, name).read();
-  const std::size_t last = bytes.rfind("\nsha256 ");
-  const std::string expected = sha256(bytes.substr(0, last + 1));
-  if (last == std::string::npos || bytes.compare(last + 8, 64, expected) != 0 || bytes.find_first_not_of(" \t\r\n", last + 72) != std::string::npos) {
-    throw Malformed(name, 0, "the digest does not match the bytes before it, which have " + expected);
-  }
+  SpectrumReader reader(bytes, name);
+  SpectrumFile file = reader.read();
+  const std::string expected = sha256(bytes.substr(0, last_line(bytes)));
+  if (!has_digest(bytes)) throw Malformed(name, 0, "bytes follow the digest");
+  if (reader.digest() != expected) throw Malformed(name, 0, "the digest does not match the bytes before it, which have " + expected);
   return file;
 }
 

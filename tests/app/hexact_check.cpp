@@ -13,9 +13,12 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <sstream>
 #include <variant>
 
 using namespace hexact;
@@ -251,6 +254,54 @@ TEST_CASE("a certificate with one changed byte is rejected", "[hexact-check]") {
   }
   program::write_bytes(path, good.substr(0, good.size() / 2));
   CHECK(program::run(folder, "\"$check\" c.cert").status == 3);
+}
+
+TEST_CASE("both programs take the same characters for blanks, and leading zeros for nothing", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string path = (folder.path() / "c.cert").string(), good = io::certificate_text(make_certificate(samples::cube(), {{"convex", ""}}, {}, {}));
+  const auto proves = [&](std::string text) {
+    text.erase(text.rfind("sha256 "));
+    text += "sha256 " + io::sha256_hex(text) + "\n";
+    program::write_bytes(path, text);
+    const int checker = program::run(folder, "\"$check\" c.cert").status, library = program::run(folder, "\"$hexact\" check c.cert").status;
+    CHECK(checker == library);
+    return checker == 0;
+  };
+  const std::size_t blank = good.find(' ', good.find("\nplanes ") + 8), line = good.find('\n', good.find("\nplanes ") + 1);
+  REQUIRE(blank != std::string::npos);
+  CHECK(proves(good));
+  CHECK(proves("\xef\xbb\xbf" + good));
+  for (const char* other : {"\t", "\f", "\v", " \v\f ", "\r"}) CHECK(proves(std::string(good).replace(blank, 1, other)));
+  // 8/10 of the first plane, with leading zeros: neither octal nor an error.
+  const std::string plane = good.substr(line + 1, good.find('\n', line + 1) - line - 1);
+  std::string scaled;
+  std::istringstream numbers(plane);
+  for (long n = 0; numbers >> n;) {
+    scaled += (n < 0 ? "-00" : "00") + std::to_string(8 * std::labs(n)) + "/010 ";
+    if (std::count(scaled.begin(), scaled.end(), ' ') == 4) break;
+  }
+  CHECK(proves(std::string(good).replace(line + 1, plane.size(), scaled + "0 -")));
+}
+
+TEST_CASE("the line of the digest is the last one, for both programs", "[hexact-check]") {
+  const program::Folder folder;
+  const std::string path = (folder.path() / "c.cert").string(), good = io::certificate_text(make_certificate(samples::cube(), {{"convex", ""}}, {}, {}));
+  const std::string before = good.substr(0, good.rfind("sha256 ")), digest = io::sha256_hex(before);
+  const auto status = [&](const std::string& last) {
+    program::write_bytes(path, before + last);
+    const int checker = program::run(folder, "\"$check\" c.cert").status;
+    CHECK(checker == program::run(folder, "\"$hexact\" check c.cert").status);
+    return checker;
+  };
+  for (const char* blank : {" ", "\t ", "\f"}) {
+    CHECK(status("sha256" + std::string(blank) + digest + "\n") == 0);
+    CHECK(status(blank + ("sha256 " + digest) + blank) == 0);
+  }
+  for (const char* tail : {"\n\n", "\n ", "\n# no more\n", " more\n", "\nclaim closed\n"}) CHECK(status("sha256 " + digest + tail) == 3);
+  CHECK(status("sha256\n" + digest + "\n") == 3);
+  CHECK(status("sha256 " + digest.substr(1) + "\n") == 3);
+  CHECK(status("sha256 \n") == 3);
+  CHECK(status("") == 3);
 }
 
 TEST_CASE("a coordinate changed by one ulp is rejected by both programs", "[hexact-check]") {
