@@ -4,6 +4,7 @@
 #pragma once
 
 #include "ball.hpp"
+#include "regular.hpp"
 
 #include <array>
 #include <map>
@@ -41,16 +42,17 @@ struct ListedRow {
   std::optional<RingBounds> ring;
 };
 enum class Scheme { midedge, midedge6, loop, catmull_clark, doo_sabin, blocks };
-enum class Statement { ordering, ring, c1, ordering_fails, ring_fails, c1_fails };
+enum class Statement { ordering, ring, c1, ordering_fails, ring_fails, c1_fails, regular };
 struct SpectrumClaim {
   std::string text;
   Statement statement;
-  std::size_t row;  // which it is about
+  std::size_t row;  // which it is about; of `regular` the number of rows
 };
 struct SpectrumFile {
   Scheme scheme = Scheme::midedge6;
   std::vector<SpectrumClaim> claims;
   std::vector<ListedRow> rows;
+  std::optional<RegularBlock> regular;
 };
 
 // Whether the file begins with the word hexact-spectrum.

@@ -122,6 +122,10 @@ std::vector<std::pair<std::string, std::string>> spectrum_faults(const SpectrumF
   }
   std::vector<std::pair<std::string, std::string>> out;
   for (const SpectrumClaim& c : file.claims) {
+    if (c.statement == Statement::regular) {
+      out.emplace_back(c.text, regular_fault(file.scheme, *file.regular));
+      continue;
+    }
     const RowFaults& f = rows[c.row];
     const std::string& ring = c.statement == Statement::c1_fails || c.statement == Statement::ring_fails ? f.ring_fails : f.ring;
     const bool of_order = c.statement == Statement::ordering || c.statement == Statement::ordering_fails;

@@ -26,7 +26,7 @@ class SpectrumReader {
     const bool names_claims = word_ == "claims";
     std::vector<std::string> claims;
     if (names_claims) {
-      const std::int64_t n = in_.integer(0, 6000);
+      const std::int64_t n = in_.integer(0, 6001);
       next();
       for (std::int64_t i = 0; i < n; ++i) word("claim"), claims.emplace_back(word_), next();
     }
@@ -39,6 +39,7 @@ class SpectrumReader {
         for (std::size_t s = 0; s < 3; ++s) claims.push_back(kStatements[s] + "=" + std::to_string(r.k));
       }
     }
+    if (word_ == "regular" && names_claims && file_.scheme != Scheme::blocks) file_.regular = read_regular(in_), next();
     for (const std::string& c : claims) add_claim(c);
     need("sha256"), next();
     digest_ = word_;
@@ -58,16 +59,20 @@ class SpectrumReader {
   mpq_class number() { return in_.number(in_.word(), false).a; }
 
   void add_claim(const std::string& text) {
+    const auto same = [&](const SpectrumClaim& c) { return c.text == text; };
+    if (std::any_of(file_.claims.begin(), file_.claims.end(), same)) in_.fail("the claim " + text + " is there twice");
+    if (text == "regular" && file_.regular) {
+      file_.claims.push_back({text, Statement::regular, file_.rows.size()});
+      return;
+    }
     for (std::size_t row = 0; row < file_.rows.size(); ++row) {
       for (std::size_t s = 0; s < kStatements.size(); ++s) {
         if (text != kStatements[s] + "=" + std::to_string(file_.rows[row].k)) continue;
-        const auto same = [&](const SpectrumClaim& c) { return c.text == text; };
-        if (std::any_of(file_.claims.begin(), file_.claims.end(), same)) in_.fail("the claim " + text + " is there twice");
         file_.claims.push_back({text, static_cast<Statement>(s), row});
         return;
       }
     }
-    in_.fail("there is no claim " + text + ", or no row that it is about");
+    in_.fail("there is no claim " + text + ", or nothing that it is about");
   }
 
   void add_row() {

@@ -8,6 +8,7 @@
 #include "hexact/io/output_file.hpp"
 #include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
+#include "regular_report.hpp"
 #include "spectrum_matrix.hpp"
 #include "spectrum_picture.hpp"
 
@@ -22,6 +23,7 @@ namespace {
 
 struct SpectrumOptions {
   std::string scheme, masks, valence, certificate, matrix, picture;
+  bool regular = false;
 };
 
 constexpr int kDigits = 32;  // enclosures of width 2^-104 stay narrower than 2^-100
@@ -129,16 +131,21 @@ struct Request {
 };
 
 Request scheme_request(const SpectrumOptions& options) {
-  if (options.valence.empty()) throw UsageError("--valence is missing: K or A..B");
-  const Range range = valence_range(options.valence);
+  if (options.valence.empty() && !options.regular) throw UsageError("--valence is missing: K or A..B; or --regular");
   Request request{options.scheme.empty() ? "midedge6" : options.scheme, {}, {}, {}};
   request.scheme = scheme_of(request.name);
+  if (options.valence.empty()) {
+    if (!options.matrix.empty()) throw UsageError("--valence is missing: --matrix writes those of a valence");
+    return request;
+  }
+  const Range range = valence_range(options.valence);
   for (int k = range.first; k <= range.last; ++k) request.subjects.push_back(scheme_subject(*request.scheme, k));
   return request;
 }
 
 Request masks_request(const SpectrumOptions& options) {
   if (!options.scheme.empty()) throw UsageError("--masks names its own scheme");
+  if (options.regular) throw UsageError("--regular is about a scheme: masks say nothing of regular regions");
   const Range range = options.valence.empty() ? Range{3, kLargestValence} : valence_range(options.valence);
   Request request;
   request.masks = io::read_masks(options.masks);
@@ -153,14 +160,16 @@ Request masks_request(const SpectrumOptions& options) {
 SpectrumCertificate certificate_of(const Request& request, const std::vector<SpectrumRow>& rows, const SpectrumOptions& options) {
   std::string command = request.scheme ? "spectrum --scheme " + request.name : "spectrum --masks " + options.masks;
   if (!options.valence.empty()) command += " --valence " + options.valence;
+  if (options.regular) command += " --regular";
   std::vector<std::string> provenance{"hexact " HEXACT_VERSION, std::move(command)};
   return request.scheme ? make_spectrum_certificate(*request.scheme, rows, std::move(provenance))
                         : make_spectrum_certificate(*request.masks, rows, std::move(provenance));
 }
 
 /// Writes the certificate, unless it would state nothing, and reports what it states and what it leaves out.
-void write_certificate(Outcome& outcome, const Request& request, const std::vector<SpectrumRow>& rows, const SpectrumOptions& options) {
-  const SpectrumCertificate certificate = certificate_of(request, rows, options);
+void write_certificate(Outcome& outcome, const Request& request, const std::vector<SpectrumRow>& rows,
+                       const std::optional<RegularSmoothness>& regular, const SpectrumOptions& options) {
+  SpectrumCertificate certificate = certificate_of(request, rows, options);
   nlohmann::ordered_json stated = nlohmann::ordered_json::array(), omitted = nlohmann::ordered_json::array();
   std::string stated_text, omitted_text;
   for (const SpectrumRow& row : rows) {
@@ -169,6 +178,12 @@ void write_certificate(Outcome& outcome, const Request& request, const std::vect
       (is_stated ? stated : omitted).push_back(text_of(claim));
       (is_stated ? stated_text : omitted_text) += " " + text_of(claim);
     }
+  }
+  if (regular) {
+    certificate.claims.push_back({SpectrumClaimKind::regular, 0});
+    certificate.regular = regular->evidence;
+    stated.push_back(text_of(certificate.claims.back()));
+    stated_text += " " + text_of(certificate.claims.back());
   }
   const bool written = !certificate.claims.empty();
   if (written) io::write_file(options.certificate, io::spectrum_certificate_text(certificate));
@@ -193,7 +208,8 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   Outcome outcome;
   Verdict all = Verdict::proved;
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
-  outcome.text = fmt::format("{}\n{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}\n", request.name, "k", "lambda", "next", "mode", "ordering", "ring", "C1");
+  outcome.text = request.name + "\n";
+  if (!rows.empty()) outcome.text += fmt::format("{:>4}  {:<17}  {:<17} {:>4}  {:<9}  {:<9}  {:<9}\n", "k", "lambda", "next", "mode", "ordering", "ring", "C1");
   for (const SpectrumRow& row : rows) {
     table.push_back(row_json(row));
     outcome.text += row_text(row);
@@ -203,9 +219,15 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   outcome.report["scheme"] = request.name;
   outcome.report["verdict"] = name_of(all);
   outcome.report["rows"] = std::move(table);
+  std::optional<RegularSmoothness> regular;
+  if (options.regular) {
+    regular = regular_smoothness(*request.scheme);
+    outcome.report["regular"] = regular_json(*regular);
+    outcome.text += regular_text(*regular);
+  }
   if (!options.matrix.empty()) write_subdivision_matrices(options.matrix, request.name, subjects);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
-  if (!options.certificate.empty()) write_certificate(outcome, request, rows, options);
+  if (!options.certificate.empty()) write_certificate(outcome, request, rows, regular, options);
   if (options.matrix == "-") outcome.text.clear();
   outcome.exit_code = all == Verdict::proved ? kDone : all == Verdict::refuted ? kClaimFails : kUndecided;
   return outcome;
@@ -218,6 +240,7 @@ void add_spectrum(const Registry& registry) {
   CLI::App* command = registry.add("spectrum", "Eigenvalues and characteristic ring of a subdivision scheme, with the proof that it is C1");
   command->add_option("--scheme", options->scheme, "midedge, midedge6, loop, catmull-clark or doo-sabin (default: midedge6)");
   command->add_option("--valence", options->valence, "Valence K or range A..B; the face size for midedge, midedge6 and doo-sabin");
+  command->add_flag("--regular", options->regular, "Smoothness where the mesh is regular: the class of the limit surface and its Hoelder exponent");
   command->add_option("--masks", options->masks, "JSON document of masks of your own, instead of a scheme");
   command->add_option("--certificate", options->certificate, "Certificate to write of what is proved, one way or the other; hexact-check verifies it");
   command->add_option("--matrix", options->matrix, "JSON to write: the exact matrices by blocks, and their characteristic polynomials");

@@ -93,6 +93,12 @@ class Interval {
     if (mpfr_sgn(a.hi_) > 0) mpfr_sqrt(r.hi_, a.hi_, MPFR_RNDU);
     return r;
   }
+  /// Precondition: sign() > 0.
+  friend Interval log2(const Interval& a) {
+    Interval r;
+    mpfr_log2(r.lo_, a.lo_, MPFR_RNDD), mpfr_log2(r.hi_, a.hi_, MPFR_RNDU);
+    return r;
+  }
   Interval& operator+=(const Interval& b) {
     mpfr_add(lo_, lo_, b.lo_, MPFR_RNDD), mpfr_add(hi_, hi_, b.hi_, MPFR_RNDU);
     return *this;

@@ -100,7 +100,8 @@ const std::string& fault_of(const RowFaults& faults, SpectrumClaimKind kind) {
     case SpectrumClaimKind::c1: return faults.ordering.empty() ? faults.ring : faults.ordering;
     case SpectrumClaimKind::ordering_fails: return faults.ordering_fails;
     case SpectrumClaimKind::ring_fails: return faults.ring_fails;
-    case SpectrumClaimKind::c1_fails: break;
+    case SpectrumClaimKind::c1_fails:
+    case SpectrumClaimKind::regular: break;
   }
   return faults.ordering.empty() ? faults.ring_fails : faults.ordering;
 }
@@ -183,6 +184,22 @@ bool encloses_cosine(const RationalInterval& interval, int k) {
   return interval.lo < interval.hi && greater_zeros(interval.lo) == 2 && greater_zeros(interval.hi) == 1;
 }
 
+namespace {
+
+/// `faults` are those of the rows, in order.
+std::string claim_fault(const SpectrumCertificate& certificate, const std::vector<RowFaults>& faults, const SpectrumClaim& claim) {
+  if (claim.kind == SpectrumClaimKind::regular) {
+    if (!certificate.regular || !certificate.scheme) return "there is no evidence";
+    return regular_fault(*certificate.scheme, *certificate.regular);
+  }
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    if (certificate.rows[i].valence == claim.valence) return fault_of(faults[i], claim.kind);
+  }
+  return "there is no row of this valence";
+}
+
+}  // namespace
+
 std::vector<ClaimVerdict> verify(const SpectrumCertificate& certificate) {
   const std::vector<SpectrumClaim>& claims = certificate.claims;
   std::vector<RowFaults> faults(certificate.rows.size());
@@ -195,9 +212,7 @@ std::vector<ClaimVerdict> verify(const SpectrumCertificate& certificate) {
   });
   std::vector<ClaimVerdict> out;
   for (const SpectrumClaim& claim : claims) {
-    const auto row = std::find_if(certificate.rows.begin(), certificate.rows.end(), [&](const Row& r) { return r.valence == claim.valence; });
-    const std::string fault = row == certificate.rows.end() ? "there is no row of this valence"
-                                                            : fault_of(faults[static_cast<std::size_t>(row - certificate.rows.begin())], claim.kind);
+    const std::string fault = claim_fault(certificate, faults, claim);
     out.push_back({text_of(claim), fault.empty() ? Verdict::proved : Verdict::refuted, fault});
   }
   return out;

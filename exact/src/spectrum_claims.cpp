@@ -16,10 +16,12 @@ constexpr std::array<std::pair<SpectrumClaimKind, std::string_view>, 6> kNames =
     {SpectrumClaimKind::ring_fails, "ring-fails"},
     {SpectrumClaimKind::c1_fails, "c1-fails"},
 }};
+constexpr std::string_view kRegular = "regular";
 
 }  // namespace
 
 std::string text_of(const SpectrumClaim& claim) {
+  if (claim.kind == SpectrumClaimKind::regular) return std::string(kRegular);
   std::string text;
   for (const auto& [kind, name] : kNames) {
     if (kind == claim.kind) text = name;
@@ -28,6 +30,7 @@ std::string text_of(const SpectrumClaim& claim) {
 }
 
 std::optional<SpectrumClaim> spectrum_claim(std::string_view text) {
+  if (text == kRegular) return SpectrumClaim{SpectrumClaimKind::regular, 0};
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) return std::nullopt;
   const std::string_view number = text.substr(equals + 1);

@@ -4,6 +4,7 @@
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "line_scanner.hpp"
+#include "regular_evidence_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -39,6 +40,10 @@ class Reader {
     scanner_.expect_end();
     next_keyword();
     for (std::size_t i = 0; i < rows; ++i) row({"row", i});
+    if (keyword_ == "regular" && names_claims && out_.scheme) {
+      out_.regular = read_regular_evidence(scanner_);
+      next_keyword();
+    }
     if (names_claims) check_claims();
     else imply_claims();
     expect("sha256");
@@ -67,7 +72,7 @@ class Reader {
   }
 
   void claims() {
-    const std::size_t n = scanner_.count("claims", 8, 6 * kLargestValence);
+    const std::size_t n = scanner_.count("claims", 8, 6 * kLargestValence + 1);
     scanner_.expect_end();
     next_keyword();
     for (std::size_t i = 0; i < n; ++i) {
@@ -86,6 +91,10 @@ class Reader {
 
   void check_claims() const {
     for (std::size_t i = 0; i < out_.claims.size(); ++i) {
+      if (out_.claims[i].kind == SpectrumClaimKind::regular) {
+        if (!out_.regular) scanner_.fail_at(claim_lines_[i], "there is no block of this name", {"claim", i});
+        continue;
+      }
       const auto about = [&](const auto& r) { return r.valence == out_.claims[i].valence; };
       if (std::none_of(out_.rows.begin(), out_.rows.end(), about)) scanner_.fail_at(claim_lines_[i], "there is no row of this valence", {"claim", i});
     }
@@ -245,6 +254,7 @@ std::string spectrum_certificate_text(const SpectrumCertificate& certificate) {
   for (const SpectrumClaim& claim : certificate.claims) text += "claim " + text_of(claim) + "\n";
   text += "rows " + std::to_string(certificate.rows.size()) + "\n";
   for (const SpectrumCertificate::Row& row : certificate.rows) append_row(text, row);
+  if (certificate.regular) text += regular_evidence_text(*certificate.regular);
   const std::string digest = sha256_hex(text);
   return text += "sha256 " + digest + "\n";
 }

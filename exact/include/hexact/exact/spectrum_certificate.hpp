@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-3.0-or-later
 #pragma once
 
+#include "hexact/exact/regular_smoothness.hpp"
 #include "hexact/exact/spectrum.hpp"
 #include "hexact/exact/spectrum_claims.hpp"
 #include "hexact/exact/spectrum_masks.hpp"
@@ -29,6 +30,7 @@ struct SpectrumCertificate {
   std::optional<SpectrumScheme> scheme = SpectrumScheme::midedge6;  ///< none: rows give blocks
   std::vector<SpectrumClaim> claims;
   std::vector<Row> rows;
+  std::optional<RegularEvidence> regular;  ///< of regular regions, where their smoothness is claimed
 };
 
 /// The certificate of what the rows prove, one way or the other: `proved_claims` of each row, in order. Left out are
@@ -41,12 +43,12 @@ struct SpectrumCertificate {
 [[nodiscard]] SpectrumCertificate make_spectrum_certificate(const MasksDocument& masks, const std::vector<SpectrumRow>& rows,
                                                             std::vector<std::string> provenance);
 
-/// Decides each claim from the certificate's numbers alone, the matrices being made anew. Every claim rests on this: the
+/// Decides each claim from the certificate's numbers alone, the matrices being made anew. Claims of rows rest on this: the
 /// cosine interval is narrow and right (zeros of a Chebyshev polynomial, counted by Sturm's theorem) and the listed
 /// eigenvalues are all there are, with these multiplicities, but for some in a disc (see docs/spectrum.md).
 /// Then `ordering`, `ordering-fails`: what follows from the list, see `decide_ordering`; `ring`: the bounds of
 /// `prove_ring` at this level are positive and hold; `ring-fails`: λ₂ is of a mode between 1 and k/2; `c1`: ordering and
-/// ring; `c1-fails`: ring-fails. Refuted with a witness when the proof is not there.
+/// ring; `c1-fails`: ring-fails. `regular` rests on its own evidence, see `regular_fault`. Refuted with a witness when the proof is not there.
 [[nodiscard]] std::vector<ClaimVerdict> verify(const SpectrumCertificate& certificate);
 
 /// Whether an interval contains cos(2π/k) and no other zero of the Chebyshev polynomial U_{k−1}, whose zeros are
