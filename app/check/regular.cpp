@@ -273,6 +273,7 @@ std::string smoothing_fault(const Weights& smoothing, const RegularBlock& block)
   for (int i = -reach; i <= reach; ++i) {
     if (q.count(i) == 0 || q.at(i) < 0) return "a weight is not positive";
   }
+  if (2 * block.low <= 1 || block.high >= 1) return "the growth is not between 1/2 and 1";
   return Polytope(q, reach, block).fault();
 }
 

@@ -70,6 +70,7 @@ std::string smoothing_fault(const BoxSplineFactors& factors, const RegularEviden
   for (const Rational& x : c) total += x;
   const bool average = total == Rational(1) && std::none_of(c.begin(), c.end(), [](const Rational& x) { return x.sign() < 0; });
   if (!average || convolved(d, c) != convolved(q, spread(c))) return "the link between axes and diagonals is not given";
+  if (evidence.growth->bounds.lo <= half() || evidence.growth->bounds.hi >= Rational(1)) return "the growth is not between 1/2 and 1";
   return mass_growth_fault(q, *evidence.growth);
 }
 

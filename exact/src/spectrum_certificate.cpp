@@ -152,13 +152,13 @@ void add_row(SpectrumCertificate& certificate, const SpectrumRow& proved, std::o
 }  // namespace
 
 SpectrumCertificate make_spectrum_certificate(SpectrumScheme scheme, const std::vector<SpectrumRow>& rows, std::vector<std::string> provenance) {
-  SpectrumCertificate certificate{std::move(provenance), scheme, {}, {}};
+  SpectrumCertificate certificate{std::move(provenance), scheme, {}, {}, {}};
   for (const SpectrumRow& row : rows) add_row(certificate, row, std::nullopt);
   return certificate;
 }
 
 SpectrumCertificate make_spectrum_certificate(const MasksDocument& masks, const std::vector<SpectrumRow>& rows, std::vector<std::string> provenance) {
-  SpectrumCertificate certificate{std::move(provenance), masks.scheme, {}, {}};
+  SpectrumCertificate certificate{std::move(provenance), masks.scheme, {}, {}, {}};
   for (const SpectrumRow& row : rows) {
     const auto mask = std::find_if(masks.masks.begin(), masks.masks.end(), [&](const auto& m) { return m.valence == row.valence; });
     HEXACT_EXPECTS(mask != masks.masks.end());
