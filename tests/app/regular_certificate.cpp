@@ -167,10 +167,10 @@ TEST_CASE("spectrum --regular: text, JSON, certificates, exit codes", "[regular]
   CHECK(run("--scheme midedge --regular --valence 3 --certificate d.cert").status == 1);  // the row is refuted
   r = program::run(folder, "$check d.cert");
   CHECK(r.status == 0);
-  CHECK(r.out == "ordering-fails=3: proved\nregular: proved\nproved\n");
+  CHECK(r.out == "scheme: midedge\nordering-fails=3: proved\nregular: proved\nproved\n");
   CHECK(program::run(folder, "sed -i '/^claim regular/d; s/^claims 2/claims 1/; /^sha256/d' d.cert; "
                              "echo sha256 $(sha256sum < d.cert | cut -d' ' -f1) >> d.cert; $check d.cert && $hexact check d.cert").out ==
-        "ordering-fails=3: proved\nproved\nordering-fails=3: proved\nproved\n");  // a block without claim is not read as one
+        "scheme: midedge\nordering-fails=3: proved\nproved\nscheme: midedge\nordering-fails=3: proved\nproved\n");  // a block without claim is not read as one
   CHECK(program::run(folder, "sed -i 's/^claim ordering-fails=3/claim regular/; /^regular/,$d' d.cert; "
                              "echo sha256 $(sha256sum < d.cert | cut -d' ' -f1) >> d.cert; $check d.cert").status == 3);
   CHECK(program::run(folder, "$hexact check d.cert").status == 3);

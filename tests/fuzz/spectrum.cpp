@@ -52,10 +52,43 @@ void require_same(const SpectrumCertificate::Row& a, const check::ListedRow& b) 
   }
 }
 
+void require_same(const MassGrowth& a, const check::RegularBlock& b) {
+  require_same(a.bounds.lo, b.low);
+  require_same(a.bounds.hi, b.high);
+  require(a.word == b.word && a.vertices.size() == b.vertices.size() && a.images.size() == b.images.size());
+  for (std::size_t v = 0; v < b.vertices.size(); ++v) {
+    require(static_cast<int>(a.vertices[v].parent) == b.vertices[v].parent && a.vertices[v].digit == b.vertices[v].digit);
+    require(a.vertices[v].entries.size() == b.vertices[v].entries.size());
+    for (std::size_t i = 0; i < b.vertices[v].entries.size(); ++i) require(a.vertices[v].entries[i].str() == b.vertices[v].entries[i].get_str());
+  }
+  for (std::size_t i = 0; i < b.images.size(); ++i) {
+    const auto& x = a.images[i];
+    const auto& y = b.images[i];
+    require(static_cast<int>(x.vertex) == y.vertex && x.digit == y.digit && x.combination.size() == y.weights.size());
+    for (std::size_t j = 0; j < y.weights.size(); ++j) {
+      require(static_cast<int>(x.combination[j].first) == y.weights[j].first);
+      require_same(x.combination[j].second, y.weights[j].second);
+    }
+  }
+}
+
+void require_same(const RegularEvidence& a, const check::RegularBlock& b) {
+  require(a.continuity == b.continuity && a.directions.size() == b.directions.size() && a.link.size() == b.link.size());
+  require(a.growth.has_value() == !b.link.empty());
+  for (std::size_t i = 0; i < b.directions.size(); ++i) require(a.directions[i][0] == b.directions[i].first && a.directions[i][1] == b.directions[i].second);
+  for (std::size_t i = 0; i < b.link.size(); ++i) require_same(a.link[i], b.link[i]);
+  if (a.growth) require_same(*a.growth, b);
+}
+
 void require_same(const SpectrumCertificate& a, const check::SpectrumFile& b) {
   require(a.claims.size() == b.claims.size() && a.rows.size() == b.rows.size() && a.scheme.has_value() == (b.scheme != check::Scheme::blocks));
-  for (std::size_t i = 0; i < b.claims.size(); ++i) require(text_of(a.claims[i]) == b.claims[i].text && a.claims[i].valence == b.rows[b.claims[i].row].k);
+  for (std::size_t i = 0; i < b.claims.size(); ++i) {
+    const std::size_t row = b.claims[i].row;
+    require(text_of(a.claims[i]) == b.claims[i].text && a.claims[i].valence == (row < b.rows.size() ? b.rows[row].k : 0));
+  }
   for (std::size_t i = 0; i < b.rows.size(); ++i) require_same(a.rows[i], b.rows[i]);
+  require(a.regular.has_value() == b.regular.has_value());
+  if (a.regular) require_same(*a.regular, *b.regular);
 }
 
 }  // namespace
