@@ -39,7 +39,7 @@ std::string smoothness_text(const RegularSmoothness& regular) {
   const int r = regular.evidence.continuity;
   if (!regular.evidence.growth) return fmt::format("C^{}, derivatives of order {} Lipschitz continuous, not C^{}", r, r, r + 1);
   const DecimalEnclosure a = decimal_enclosure(regular.exponent, kShortDigits);
-  return fmt::format("C^{}, derivatives of order {} Hoelder continuous with exponent {}, not with {}, not C^{}", r, r, a.lo, a.hi, r + 1);
+  return fmt::format("C^{}, derivatives of order {} Hoelder continuous with exponent {}, of generic data not with {}, not C^{}", r, r, a.lo, a.hi, r + 1);
 }
 
 }  // namespace

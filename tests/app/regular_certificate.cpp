@@ -101,6 +101,32 @@ TEST_CASE("a number of a certificate of regular regions cannot be changed, unles
   }
 }
 
+TEST_CASE("what a forger would try with regular regions", "[regular][certificate]") {
+  const program::Folder folder;
+  const std::string text = regular_certificate(SpectrumScheme::midedge6);
+  const auto with = [&](const std::string& what, const std::string& by) {
+    std::string forged = text;
+    const std::size_t at = forged.find(what);
+    REQUIRE(at != std::string::npos);
+    return verdict(folder, with_digest(forged.replace(at, what.size(), by)));
+  };
+  CHECK(with("regular 2\n", "regular 3\n") == 1);
+  CHECK(with("regular 2\n", "regular 1\n") == 1);
+  CHECK(with("smoothing 3 3/16 5/8 3/16", "smoothing 3 1/4 1/2 1/4") == 1);
+  CHECK(with("smoothing 3 3/16 5/8 3/16", "smoothing 1 1") == 1);
+  CHECK(with("smoothing 3 3/16 5/8 3/16", "smoothing 0") == 3);
+  CHECK(with("1 0\n0 1\n", "0 1\n1 0\n") == 1);
+  CHECK(with("directions 4\n1 0\n", "directions 3\n") == 1);
+  CHECK(with("1 1\n1 -1\n", "1 1\n-1 1\n") == 1);
+  CHECK(with("word 2 0 1", "word 2 1 0") == 0);           // the same eigenvalues
+  CHECK(with("word 2 0 1", "word 4 0 1 0 1") == 0);       // the square
+  CHECK(with("word 2 0 1", "word 2 1 1") == 1);
+  CHECK(with("1 1 2 0 14263/65536 2 51273/65536", "1 1 3 0 14263/65536 2 51272/65536 2 1/65536") == 0);
+  CHECK(with("1 1 2 0 14263/65536 2 51273/65536", "1 1 1 2 1") == 1);
+  CHECK(with("1 1 2 0 14263/65536 2 51273/65536", "1 1 2 0 1/65536 2 65535/65536") == 1);
+  CHECK(with("1 1 2 0 14263/65536 2 51273/65536", "1 1 3 0 1 2 1 3 -1") == 1);
+}
+
 TEST_CASE("edited certificates of regular regions: both checkers agree", "[regular][certificate]") {
   const program::Folder folder;
   const std::vector<std::string> originals{regular_certificate(SpectrumScheme::midedge6), regular_certificate(SpectrumScheme::loop),

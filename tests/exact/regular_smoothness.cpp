@@ -38,14 +38,18 @@ Symbol pseudo_random(std::uint64_t& state) {
 
 /// The largest sum of entries of a product of `length` matrices: between constants times the length-th power of the
 /// joint spectral radius. In floating point.
-double greatest_product(const std::array<RationalMatrix, 2>& t, std::size_t n, int length) {
+double greatest_product(const std::array<RationalMatrix, 2>& exact, std::size_t n, int length) {
+  std::array<std::vector<double>, 2> t;
+  for (std::size_t e = 0; e < 2; ++e) {
+    for (const Rational& x : exact[e]) t[e].push_back(x.to_double());
+  }
   std::function<double(const std::vector<double>&, int)> greatest = [&](const std::vector<double>& x, int left) {
     if (left == 0) return *std::max_element(x.begin(), x.end());
     double most = 0;
-    for (const RationalMatrix& m : t) {
+    for (const std::vector<double>& m : t) {
       std::vector<double> y(n, 0.0);
       for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) y[i] += m[i * n + j].to_double() * x[j];
+        for (std::size_t j = 0; j < n; ++j) y[i] += m[i * n + j] * x[j];
       }
       most = std::max(most, greatest(y, left - 1));
     }
@@ -209,6 +213,24 @@ TEST_CASE("evidence holds for its own scheme and for no other", "[regular]") {
   }
 }
 
+TEST_CASE("evidence that claims something else is refused", "[regular]") {
+  const RegularEvidence& good = six_point().evidence;
+  const auto refused = [&](auto&& edit) {
+    RegularEvidence bad = good;
+    edit(bad);
+    return !regular_fault(SpectrumScheme::midedge6, bad).empty();
+  };
+  CHECK_FALSE(refused([](RegularEvidence&) {}));
+  CHECK(refused([](RegularEvidence& e) { e.continuity = 3; }));
+  CHECK(refused([](RegularEvidence& e) { e.continuity = 1; }));
+  CHECK(refused([](RegularEvidence& e) { std::swap(e.directions[0], e.directions[1]); }));
+  CHECK(refused([](RegularEvidence& e) { e.directions.pop_back(); }));
+  CHECK(refused([](RegularEvidence& e) { e.link = {fraction(1, 4), fraction(1, 2), fraction(1, 4)}; }));
+  CHECK(refused([](RegularEvidence& e) { e.link = {1}; }));
+  CHECK(refused([](RegularEvidence& e) { e.growth.reset(); }));
+  CHECK(refused([](RegularEvidence& e) { e.link.clear(); }));
+}
+
 TEST_CASE("growth of masses of other laws, against the largest product", "[regular]") {
   int proved = 0;
   for (const auto& weights : {std::vector<long>{9, 36, 38, 36, 9}, {5, 30, 58, 30, 5}, {10, 30, 48, 30, 10}, {9, 35, 40, 30, 14}, {30, 68, 30}, {1, 40, 46, 40, 1}, {20, 25, 38, 25, 20}}) {
@@ -238,7 +260,7 @@ TEST_CASE("every number of the evidence matters", "[regular]") {
   const StepLaw& law = six_point().law;
   const MassGrowth& good = *six_point().evidence.growth;
   REQUIRE(mass_growth_fault(law, good).empty());
-  const auto refused = [&](auto&& edit) {
+  const auto refused = [&](auto&& edit) {  // by the growth alone
     MassGrowth bad = good;
     edit(bad);
     return !mass_growth_fault(law, bad).empty();
