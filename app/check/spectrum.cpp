@@ -61,7 +61,8 @@ std::vector<Poly> layers(Poly p) {
 // det(X - M) with entries that are polynomials of c = (z + 1/z)/2 in disguise: coefficient of X^i as polynomial in c.
 class ModePolynomials {
  public:
-  ModePolynomials(const ModeRule& rule) {
+  // Rules that are given may have no mirror image; that costs a second determinant in each place.
+  ModePolynomials(const ModeRule& rule, bool given) : given_(given) {
     const auto& v = rule.vertices();
     n_ = v.size();
     entries_.resize(n_ * n_);
@@ -122,7 +123,7 @@ class ModePolynomials {
       nodes.push_back((z + 1 / z) / 2);
       table.push_back(at(set, z));
       // Two Laurent polynomials that agree in so many places are the same.
-      if (degree > 0 && at(set, 1 / z) != table.back()) symmetric_ = false;
+      if (given_ && degree > 0 && at(set, 1 / z) != table.back()) symmetric_ = false;
     }
     for (std::size_t order = 1; order < nodes.size(); ++order) {
       for (std::size_t i = nodes.size(); i-- > order;) {
@@ -180,7 +181,7 @@ class ModePolynomials {
     return p;
   }
   std::size_t n_ = 0;
-  bool symmetric_ = true;
+  bool given_, symmetric_ = true;
   std::vector<Waves> entries_;
   std::vector<std::vector<Poly>> blocks_;
 };
@@ -393,9 +394,10 @@ std::string spectrum_fault(Scheme scheme, const ListedRow& row) {
   if (std::string f = cosine_fault(row); !f.empty()) return f;
   if (std::string f = mask_fault(scheme, row); !f.empty()) return f;
   const std::vector<ComplexBall> all_turns = turns(row);
-  const ModePolynomials zero(ModeRule(scheme, row, 0)), one(ModeRule(scheme, row, 1));
+  const bool given = scheme == Scheme::blocks;
+  const ModePolynomials zero(ModeRule(scheme, row, 0), given), one(ModeRule(scheme, row, 1), given);
   // The other modes have the rule of mode 1, with another z; Doo and Sabin's own has another number in the k-gon.
-  const ModePolynomials two = scheme == Scheme::doo_sabin ? ModePolynomials(ModeRule(scheme, row, 2)) : one;
+  const ModePolynomials two = scheme == Scheme::doo_sabin ? ModePolynomials(ModeRule(scheme, row, 2), given) : one;
   for (int m = 0; 2 * m <= row.k; ++m) {
     const std::string f = mode_fault(row, m, all_turns, m == 0 ? zero : m == 1 ? one : two);
     if (!f.empty()) return "mode " + std::to_string(m) + ": " + f;

@@ -1,111 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The claims of spectral certificates: what is refuted, what is undecided in part, masks, eigenvalues in a disc.
-#include "dice.hpp"
-#include "spectrum_edits.hpp"
+#include "spectrum_samples.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
-#include <set>
 
 using namespace hexact;
 using namespace hexact::spectrum_test;
-
-namespace {
-
-Rational fraction(long p, long q) { return Rational(p) / Rational(q); }
-
-std::string text_of_scheme(SpectrumScheme scheme, const std::vector<int>& valences) {
-  std::vector<SpectrumSubject> subjects;
-  for (const int k : valences) subjects.push_back(scheme_subject(scheme, k));
-  return io::spectrum_certificate_text(make_spectrum_certificate(scheme, spectrum_rows(subjects), {"test"}));
-}
-
-std::string text_of_masks(const MasksDocument& masks) {
-  std::vector<SpectrumSubject> subjects;
-  for (const ExtraordinaryMask& mask : masks.masks) subjects.push_back(mask_subject(masks, mask));
-  return io::spectrum_certificate_text(make_spectrum_certificate(masks, spectrum_rows(subjects), {"test"}));
-}
-
-MasksDocument weights(SpectrumScheme scheme, int k, std::vector<Rational> w) { return {"test", scheme, {{k, std::move(w), {}}}}; }
-
-/// A pentagon whose second eigenvalue is of mode 2.
-MasksDocument twice_around() { return weights(SpectrumScheme::doo_sabin, 5, {fraction(2, 5), fraction(1, 20), fraction(1, 4), fraction(1, 4), fraction(1, 20)}); }
-/// Catmull and Clark's rule with a centre whose mode 0 has two complex eigenvalues.
-MasksDocument complex_centre(int k) { return weights(SpectrumScheme::catmull_clark, k, {fraction(1, 2), Rational(-1) / Rational(k), fraction(3, 2 * k)}); }
-
-/// Blocks of random weights, mirror images of each other, with rows of sum 1.
-MasksDocument random_blocks(int k, std::size_t n, Dice& dice) {
-  ExtraordinaryMask mask{k, {}, std::vector<std::vector<Rational>>(static_cast<std::size_t>(k), std::vector<Rational>(n * n))};
-  for (std::size_t i = 0; i < n * n; ++i) {
-    for (int d = 0; 2 * d <= k; ++d) {
-      const Rational w = Rational(static_cast<long>(dice.below(9)) - 4) / Rational(static_cast<long>(32 * n));
-      mask.blocks[static_cast<std::size_t>(d)][i] = mask.blocks[static_cast<std::size_t>((k - d) % k)][i] = w;
-    }
-  }
-  for (std::size_t r = 0; r < n; ++r) {
-    Rational sum;
-    for (const auto& block : mask.blocks) {
-      for (std::size_t c = 0; c < n; ++c) sum += block[r * n + c];
-    }
-    for (auto& block : mask.blocks) block[r * n] += (Rational(1) - sum) / Rational(k);
-  }
-  return {"test", std::nullopt, {std::move(mask)}};
-}
-
-std::map<std::string, std::string> all_proved(const std::vector<std::string>& claims) {
-  std::map<std::string, std::string> out;
-  for (const std::string& c : claims) out[c] = "proved";
-  return out;
-}
-
-class Checkers {
- public:
-  /// What both say.
-  Outcome of(const std::string& text) const {
-    const Outcome library = by_library(text), checker = by_checker(folder_, text);
-    CHECK(library.status == checker.status);
-    CHECK(library.claims == checker.claims);
-    return library;
-  }
-
- private:
-  program::Folder folder_;
-};
-
-/// `claim` in addition to those of the certificate.
-std::string with_claim(const std::string& text, const std::string& claim) {
-  const std::size_t at = text.find("claims ") + 7, end = text.find('\n', at);
-  const int n = std::stoi(text.substr(at, end - at));
-  return with_digest(text.substr(0, at) + std::to_string(n + 1) + "\nclaim " + claim + text.substr(end));
-}
-
-/// As it was written before claims were named.
-std::string without_claims(std::string text) {
-  const std::size_t at = text.find("claims ");
-  return with_digest(text.erase(at, text.find("rows ") - at));
-}
-
-/// Every claim that an edited certificate proves is true of the matrix that it is then about.
-void check_truth(const std::string& text, const Outcome& outcome) {
-  if (outcome.status == 3) return;
-  const SpectrumCertificate certificate = io::parse_spectrum_certificate(text, "test");
-  for (const auto& row : certificate.rows) {
-    const bool proves = std::any_of(outcome.claims.begin(), outcome.claims.end(), [&](const auto& c) {
-      return c.second == "proved" && spectrum_claim(c.first)->valence == row.valence;
-    });
-    if (!proves) continue;
-    const SpectrumSubject subject = row.mask ? mask_subject({"", certificate.scheme, {}}, *row.mask) : scheme_subject(*certificate.scheme, row.valence);
-    std::set<std::string> truth;
-    for (const SpectrumClaim& c : proved_claims(spectrum_row(subject))) truth.insert(text_of(c));
-    for (const auto& [claim, verdict] : outcome.claims) {
-      if (verdict == "proved" && spectrum_claim(claim)->valence == row.valence) CHECK(truth.count(claim) == 1);
-    }
-  }
-}
-
-}  // namespace
 
 TEST_CASE("claims have one spelling", "[spectrum][certificate]") {
   for (const char* text : {"ordering=3", "ring=50", "c1=1000", "ordering-fails=7", "ring-fails=8", "c1-fails=9"}) {
@@ -227,62 +130,6 @@ TEST_CASE("complex and clustered eigenvalues are certified by a disc", "[spectru
   }
   CHECK(with_disc > 15);
   CHECK(ordered > 1);
-}
-
-TEST_CASE("the certificate of one mask is none of another", "[spectrum][certificate][masks]") {
-  const Checkers checkers;
-  const auto mask_lines = [](const std::string& text) {
-    const std::size_t first = text.find('\n', text.find("\nrow ") + 1) + 1;
-    return text.substr(first, text.find("cosine ") - first);
-  };
-  const std::vector<MasksDocument> of_loop{weights(SpectrumScheme::loop, 5, {fraction(1, 2), fraction(1, 10)}),
-                                           weights(SpectrumScheme::loop, 5, {fraction(2, 5), fraction(3, 25)})},
-      of_face{weights(SpectrumScheme::doo_sabin, 5, {fraction(2, 5), fraction(1, 5), fraction(1, 10), fraction(1, 10), fraction(1, 5)}), twice_around()};
-  Dice dice(5);
-  const std::vector<MasksDocument> of_blocks{random_blocks(3, 2, dice), random_blocks(3, 2, dice)};
-  for (const auto& pair : {of_loop, of_face, of_blocks}) {
-    const std::string one = text_of_masks(pair[0]), other = text_of_masks(pair[1]);
-    REQUIRE(mask_lines(one) != mask_lines(other));
-    for (const auto& [text, stranger] : {std::pair{one, other}, {other, one}}) {
-      CHECK(checkers.of(text).status == 0);
-      for (const auto& [claim, verdict] : checkers.of(replaced(text, mask_lines(text), mask_lines(stranger))).claims) CHECK(verdict == "refuted");
-      // Without its mask the row is about the scheme itself, or about nothing.
-      CHECK(checkers.of(replaced(text, mask_lines(text), "")).status == 1);
-    }
-  }
-  // Masks that are none: of another scheme, of the wrong length, without mirror image.
-  const std::string face = text_of_masks(of_face[0]);
-  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme loop")).status == 1);
-  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme midedge")).status == 1);
-  CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme blocks")).status == 3);
-  CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 4 2/5 1/5 1/10 1/10")).status == 1);
-  CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 5 2/5 3/10 1/10 1/10 1/10")).status == 1);
-  const std::string blocks = text_of_masks(MasksDocument{"test", std::nullopt, {{3, {}, {{fraction(1, 2)}, {fraction(1, 4)}, {fraction(1, 4)}}}}});
-  CHECK(checkers.of(replaced(blocks, "\n1/4\n1/4\n", "\n1/2\n0\n")).status == 1);  // no mirror image
-}
-
-TEST_CASE("edited certificates of masks and of what fails: the checkers agree, and no false claim passes", "[spectrum][certificate]") {
-  const Checkers checkers;
-  Dice samples(11);
-  const std::vector<std::string> originals{text_of_scheme(SpectrumScheme::midedge, {3, 4}), text_of_masks(twice_around()), text_of_masks(complex_centre(5)),
-                                           text_of_masks(complex_centre(6)), text_of_masks(random_blocks(5, 3, samples)),
-                                           text_of_masks(random_blocks(4, 2, samples)),
-                                           text_of_masks(weights(SpectrumScheme::loop, 7, {fraction(1, 2), fraction(1, 14)}))};
-  constexpr std::uint64_t kSeed = 20261126;
-  Dice dice(kSeed);
-  int malformed = 0, refuted = 0, proved = 0;
-  for (int i = 0; i < 700; ++i) {
-    std::string text = edited(originals[static_cast<std::size_t>(i) % originals.size()], dice);
-    if (dice.below(3) == 0) text = edited(text, dice);
-    INFO("seed " << kSeed << ", edit " << i << ":\n" << text);
-    const Outcome outcome = checkers.of(text);
-    check_truth(text, outcome);
-    ++(outcome.status == 3 ? malformed : outcome.status == 1 ? refuted : proved);
-  }
-  INFO(malformed << " malformed, " << refuted << " refuted, " << proved << " still proved");
-  CHECK(malformed > 100);
-  CHECK(refuted > 200);
-  CHECK(proved > 10);
 }
 
 TEST_CASE("spectrum writes certificates of masks and says what they state", "[spectrum][program][masks]") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hexact/exact/spectrum.hpp"
+#include "hexact/exact/spectrum_masks.hpp"
 
 #include "exact/spectrum_golden.hpp"
 
@@ -132,6 +133,45 @@ TEST_CASE("orderings that fail name the eigenvalue, and overlaps are undecided",
   row.modes[0].isolated.erase(row.modes[0].isolated.begin());
   decide_ordering(row);
   CHECK(row.ordering == Verdict::refuted);  // no 1 at all
+}
+
+TEST_CASE("what may be otherwise is undecided, not refuted", "[spectrum]") {
+  const auto exact = [](int mode, Rational x, int multiplicity) { return Eigenvalue{mode, {x, x}, multiplicity}; };
+  const auto decided = [](const SpectrumRow& row) {
+    SpectrumRow r = row;
+    decide_ordering(r);
+    return r.ordering;
+  };
+  SpectrumRow row;
+  row.valence = 5;
+  row.modes.resize(3);
+  row.modes[0].isolated = {exact(0, Rational(1), 1)};
+  row.modes[1].isolated = {exact(1, fraction(1, 2), 1)};
+  row.modes[2].isolated = {exact(2, fraction(-1, 2), 1)};
+  CHECK(decided(row) == Verdict::refuted);
+  row.modes[2].remaining = 1, row.modes[2].remaining_bound = fraction(4, 5);  // a pair of modes: the second eigenvalue may be there
+  CHECK(decided(row) == Verdict::undecided);
+  row.modes[2] = {};
+  row.modes[0].isolated = {Eigenvalue{0, {fraction(99, 100), fraction(101, 100)}, 1}};  // may be 1
+  CHECK(decided(row) == Verdict::undecided);
+  row.modes[0].isolated = {Eigenvalue{0, {fraction(98, 100), fraction(99, 100)}, 1}};
+  CHECK(decided(row) == Verdict::refuted);
+  row.modes[0] = {{}, 1, fraction(11, 10)};
+  CHECK(decided(row) == Verdict::undecided);
+  row.modes[0].remaining_bound = fraction(9, 10);
+  CHECK(decided(row) == Verdict::refuted);
+  row.modes[0] = {{exact(0, Rational(1), 1)}, 0, {}};
+  for (const Rational& hi : {fraction(1, 100), Rational(0), fraction(-1, 100)}) {  // of which sign the only other one is
+    row.modes[1].isolated = {Eigenvalue{1, {fraction(-1, 50), hi}, 1}};
+    CHECK(decided(row) == (hi.sign() > 0 ? Verdict::undecided : Verdict::refuted));
+  }
+}
+
+TEST_CASE("a mask whose eigenvalues are 1 but in intervals is undecided", "[spectrum]") {
+  // 11/10 − c/5 − 2c²/5 with 4c² + 2c = 1 is 1 in modes 1 and 2, and mode 0 has 1/2.
+  const Rational w = fraction(-1, 10);
+  const SpectrumRow row = spectrum_row(mask_subject({"", SpectrumScheme::doo_sabin, {}}, {5, {fraction(9, 10), w, w, w, w}, {}}));
+  CHECK(row.ordering == Verdict::undecided);
 }
 
 TEST_CASE("decimal enclosures round outward and keep exact decimals", "[spectrum]") {
