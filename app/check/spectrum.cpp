@@ -288,11 +288,11 @@ class ModeProof {
     count(sign, tally);
     return rest_fault(q, tally);
   }
-  std::string end_fault() const {
+  std::string multiplicity_fault() const {
     for (std::size_t i = 0; i < listed_.size(); ++i) {
       if (found_[i] != listed_[i].multiplicity) return "eigenvalue " + std::to_string(i) + " has multiplicity " + std::to_string(found_[i]);
     }
-    return rest_ == mode_.rest ? "" : std::to_string(rest_) + " eigenvalues are not listed";
+    return {};
   }
 
  private:
@@ -319,7 +319,6 @@ class ModeProof {
     const std::size_t degree = p.size() - 1;
     if (tally.changes == degree) return {};
     if (tally.changes > degree || mode_.rest == 0) return "a root is in none of the intervals";
-    rest_ += static_cast<int>(degree - tally.changes);
     if (mode_.radius <= 0 || tally.on_circle) return "the disc proves nothing";
     const int inside = roots_within(p, mode_.radius);
     return inside >= 0 && static_cast<std::size_t>(inside) + tally.outside == degree ? "" : "a root is in none of the intervals, nor surely in the disc";
@@ -327,7 +326,6 @@ class ModeProof {
   const ListedMode& mode_;
   const std::vector<ListedValue>& listed_;
   std::vector<int> found_;
-  int rest_ = 0;
 };
 
 // Splits off the factor that does not depend on c: the common divisor of the coefficients of all powers of c.
@@ -371,7 +369,7 @@ std::string mode_fault(const ListedRow& row, int mode, const std::vector<Complex
     }
     if (!fault.empty()) return fault;
   }
-  return proof.end_fault();
+  return proof.multiplicity_fault();
 }
 
 }  // namespace

@@ -93,8 +93,31 @@ TEST_CASE("the certificate of one mask is none of another", "[spectrum][certific
   CHECK(checkers.of(replaced(face, "scheme doo-sabin", "scheme blocks")).status == 3);
   CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 4 2/5 1/5 1/10 1/10")).status == 1);
   CHECK(checkers.of(replaced(face, "weights 5 2/5 1/5 1/10 1/10 1/5", "weights 5 2/5 3/10 1/10 1/10 1/10")).status == 1);
-  const std::string blocks = text_of_masks(MasksDocument{"test", std::nullopt, {{3, {}, {{fraction(1, 2)}, {fraction(1, 4)}, {fraction(1, 4)}}}}});
-  CHECK(checkers.of(replaced(blocks, "\n1/4\n1/4\n", "\n1/2\n0\n")).status == 1);  // no mirror image
+  const std::string loop = text_of_masks(of_loop[0]);
+  CHECK(checkers.of(replaced(loop, "weights 2 1/2 1/10", "weights 3 1/2 1/10 1/7")).status == 1);
+}
+
+TEST_CASE("weights without mirror image are refused although a polynomial in the cosine fits them", "[spectrum][certificate][masks]") {
+  // a + bz + c/z at z = 2 and 3 lies on a line over (z + 1/z)/2, which has a − 11b/5 + 6c/5 at −1/2.
+  const Checkers checkers;
+  const std::string face = text_of_masks(weights(SpectrumScheme::doo_sabin, 3, {fraction(5, 8), fraction(3, 16), fraction(3, 16)}));
+  REQUIRE(checkers.of(face).claims.at("ordering=3") == "proved");
+  CHECK(face.find("\n7/16 7/16 1\n") != std::string::npos);
+  CHECK(checkers.of(replaced(face, "weights 3 5/8 3/16 3/16", "weights 3 57/64 11/64 -1/16")).claims.at("ordering=3") == "refuted");
+  const std::string blocks = text_of_masks(MasksDocument{"test", std::nullopt, {{3, {}, {{fraction(5, 8)}, {fraction(3, 16)}, {fraction(3, 16)}}}}});
+  REQUIRE(checkers.of(blocks).claims.at("ordering=3") == "proved");
+  CHECK(checkers.of(replaced(blocks, "\n5/8\n3/16\n3/16\n", "\n57/64\n11/64\n-1/16\n")).claims.at("ordering=3") == "refuted");
+}
+
+TEST_CASE("of blocks nothing is claimed but the ordering", "[spectrum][certificate][masks]") {
+  const Checkers checkers;
+  const MasksDocument winding{"test", std::nullopt, {{5, {}, {{fraction(2, 5)}, {fraction(1, 20)}, {fraction(1, 4)}, {fraction(1, 4)}, {fraction(1, 20)}}}}};
+  const MasksDocument plain{"test", std::nullopt, {{5, {}, {{fraction(2, 5)}, {fraction(1, 4)}, {fraction(1, 20)}, {fraction(1, 20)}, {fraction(1, 4)}}}}};
+  for (const MasksDocument& masks : {winding, plain}) {
+    const std::string text = text_of_masks(masks);
+    REQUIRE(checkers.of(text).claims == all_proved({"ordering=5"}));
+    for (const char* claim : {"ring=5", "c1=5", "ring-fails=5", "c1-fails=5"}) CHECK(checkers.of(with_claim(text, claim)).claims.at(claim) == "refuted");
+  }
 }
 
 TEST_CASE("edited certificates of masks and of what fails: the checkers agree, and no false claim passes", "[spectrum][certificate]") {
