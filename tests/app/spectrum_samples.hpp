@@ -61,8 +61,11 @@ inline std::map<std::string, std::string> all_proved(const std::vector<std::stri
 inline std::string both_orderings(const MasksDocument& masks, const SpectrumRow& row) {
   const int k = row.valence;
   const SpectrumCertificate loop = make_spectrum_certificate(SpectrumScheme::loop, {spectrum_row(scheme_subject(SpectrumScheme::loop, k))}, {});
-  return io::spectrum_certificate_text({{}, masks.scheme, {{SpectrumClaimKind::ordering, k}, {SpectrumClaimKind::ordering_fails, k}},
-                                        {{k, masks.masks[0], loop.rows[0].cosine, row.modes, std::nullopt}}});
+  SpectrumCertificate certificate;
+  certificate.scheme = masks.scheme;
+  certificate.claims = {{SpectrumClaimKind::ordering, k}, {SpectrumClaimKind::ordering_fails, k}};
+  certificate.rows.push_back({k, masks.masks[0], loop.rows[0].cosine, row.modes, std::nullopt});
+  return io::spectrum_certificate_text(certificate);
 }
 
 /// Triangles or squares of blocks with chosen eigenvalues: on the diagonal numbers or companion matrices of X² − pX + q,

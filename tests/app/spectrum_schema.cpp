@@ -63,7 +63,7 @@ TEST_CASE("reports of spectrum keep their schema, whatever is proved", "[program
   write(folder, "twice.json", R"({"hexact": "masks", "version": 1, "scheme": "doo-sabin", "masks": [{"valence": 5, "weights": ["2/5", "1/20", "1/4", "1/4", "1/20"]}]})");
   write(folder, "complex.json", R"({"hexact": "masks", "version": 1, "scheme": "catmull-clark", "masks": [{"valence": 5, "weights": [0.5, "-1/5", "3/10"]}]})");
   write(folder, "open.json", R"({"hexact": "masks", "version": 1, "scheme": "doo-sabin", "masks": [{"valence": 7, "weights": ["1/2", "1/12", "1/12", "1/12", "1/12", "1/12", "1/12"]}]})");
-  for (const char* arguments : {"--valence 3..8", "--scheme midedge --valence 3..4 --certificate c.cert", "--scheme loop --valence 7 --certificate c.cert",
+  for (const char* arguments : {"--valence 3..8", "--regular --valence 5", "--regular --certificate c.cert", "--scheme loop --regular", "--scheme midedge --regular", "--scheme midedge --valence 3..4 --certificate c.cert", "--scheme loop --valence 7 --certificate c.cert",
                                 "--masks twice.json --certificate c.cert", "--masks complex.json --certificate c.cert", "--masks open.json --certificate c.cert",
                                 "--masks open.json"}) {
     CAPTURE(arguments);
@@ -73,7 +73,8 @@ TEST_CASE("reports of spectrum keep their schema, whatever is proved", "[program
   // The schema itself refuses what is wrong.
   auto report = nlohmann::json::parse(program::read_bytes((folder.path() / "r.json").string()));
   for (const auto& [key, value] : std::vector<std::pair<std::string, nlohmann::json>>{{"/verdict", "maybe"}, {"/rows/0/k", 2}, {"/rows/0/witness", 7}, {"/rows/0/c1", "proved"},
-                                                                                    {"/rows/0/eigenvalues/0", {"1"}}, {"/claims", {"ordering=7"}}, {"/colour", 1}}) {
+                                                                                    {"/rows/0/eigenvalues/0", {"1"}}, {"/claims", {"ordering=7"}}, {"/rows", nlohmann::json::array()},
+                                                                                    {"/regular", {{"verdict", "proved"}}}, {"/colour", 1}}) {
     CAPTURE(key);
     auto wrong = report;
     wrong[nlohmann::json::json_pointer(key)] = value;
