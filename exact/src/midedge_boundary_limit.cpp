@@ -5,6 +5,9 @@
 #include "midedge_walk.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
 
 namespace hexact {
 namespace {
@@ -28,15 +31,24 @@ std::size_t first_corner(const Pattern& pattern) {
   return best;
 }
 
-/// Where each corner of the facet stands in its net, and last the size of the net.
-std::vector<std::uint32_t> corner_places(const Pattern& pattern) {
-  std::vector<std::uint32_t> places{0};
+/// Where things stand in a net.
+struct NetPlaces {
+  std::vector<std::uint32_t> corners;    ///< of the facet
+  std::vector<std::uint32_t> opposites;  ///< the vertices (0, 1) and (1, 0): the other corners of the facets across the sides
+  std::uint32_t size = 0;                ///< of the net
+};
+
+NetPlaces net_places(const Pattern& pattern) {
+  NetPlaces places;
   for (std::size_t s = 0; s < pattern.size(); ++s) {
-    const MidedgeCorner before = pattern[(s + pattern.size() - 1) % pattern.size()];
-    std::uint32_t size = pattern[s] == MidedgeCorner::inner ? 8 : 1;
-    if (pattern[s] == MidedgeCorner::gap) size += 2;
-    if (pattern[s] != MidedgeCorner::inner && before != MidedgeCorner::rim) size += 2;
-    places.push_back(places.back() + size);
+    const bool inner = pattern[s] == MidedgeCorner::inner, after = pattern[s] != MidedgeCorner::rim;
+    const bool before = pattern[(s + pattern.size() - 1) % pattern.size()] != MidedgeCorner::rim;
+    std::uint32_t at = places.size;
+    places.corners.push_back(at);
+    if (after) places.opposites.push_back(at + 1);
+    if (before) places.opposites.push_back(at + (after ? 3 : 1));
+    at += inner ? 8 : 1u + (after ? 2 : 0) + (before ? 2 : 0);
+    places.size = at;
   }
   return places;
 }
@@ -56,8 +68,8 @@ bool reaches_everywhere(const Matrix& m, std::size_t c) {
   return false;
 }
 
-/// Solves A x = b for an M-matrix A, whose pivots on the diagonal are positive. Column b stands behind the others.
-std::vector<Rational> solved(std::vector<SparseRow> a) {
+/// Solves A x = b and A y = c for an M-matrix A, whose pivots on the diagonal are positive. Columns b and c stand behind A.
+std::array<std::vector<Rational>, 2> solved(std::vector<SparseRow> a) {
   const auto n = static_cast<std::uint32_t>(a.size());
   for (std::uint32_t i = 0; i < n; ++i) {
     HEXACT_INVARIANT(a[i].count(i) > 0 && a[i].at(i).sign() > 0);
@@ -73,14 +85,58 @@ std::vector<Rational> solved(std::vector<SparseRow> a) {
       }
     }
   }
-  std::vector<Rational> x(n);
+  std::array<std::vector<Rational>, 2> x{std::vector<Rational>(n), std::vector<Rational>(n)};
   for (std::uint32_t i = n; i-- > 0;) {
-    for (auto at = a[i].upper_bound(i); at != a[i].end(); ++at) {
-      x[i] = at->first == n ? x[i] + at->second : x[i] - at->second * x[at->first];
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      Rational rest;
+      for (auto at = a[i].upper_bound(i); at != a[i].end(); ++at) {
+        if (at->first < n) rest = rest - at->second * x[side][at->first];
+        if (at->first == n + side) rest = rest + at->second;
+      }
+      x[side][i] = rest / a[i].at(i);
     }
-    x[i] = x[i] / a[i].at(i);
   }
   return x;
+}
+
+/// The same unknowns in another order, the rows with many entries last: what is eliminated before them stays in a band.
+std::vector<std::uint32_t> elimination_order(const std::vector<SparseRow>& a) {
+  constexpr std::size_t kDense = 48;
+  std::vector<std::uint32_t> order(a.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_partition(order.begin(), order.end(), [&](std::uint32_t i) { return a[i].size() <= kDense; });
+  return order;
+}
+
+std::array<std::vector<Rational>, 2> solved_in_order(const std::vector<SparseRow>& a) {
+  const std::vector<std::uint32_t> order = elimination_order(a);
+  const auto n = static_cast<std::uint32_t>(a.size());
+  std::vector<std::uint32_t> place(a.size());
+  for (std::uint32_t i = 0; i < n; ++i) place[order[i]] = i;
+  std::vector<SparseRow> turned(a.size());
+  for (std::uint32_t r = 0; r < n; ++r) {
+    for (const auto& [c, value] : a[r]) turned[place[r]][c < n ? place[c] : c] = value;
+  }
+  const auto there = solved(std::move(turned));
+  std::array<std::vector<Rational>, 2> x{std::vector<Rational>(n), std::vector<Rational>(n)};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::size_t side = 0; side < 2; ++side) x[side][i] = there[side][place[i]];
+  }
+  return x;
+}
+
+Rational dot(const std::vector<Rational>& a, const std::vector<Rational>& b) {
+  Rational sum;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Takes from a row the least of its entries at some places; returns it.
+Rational take_shared(std::vector<Rational>& row, std::span<const std::uint32_t> places) {
+  Rational shared = row[places[0]];
+  for (const std::uint32_t c : places) shared = std::min(shared, row[c]);
+  for (const std::uint32_t c : places) row[c] = row[c] - shared;
+  return shared;
 }
 
 void check_weights(const Matrix& m, const std::vector<Rational>& w) {
@@ -178,30 +234,37 @@ Matrix midedge_boundary_operator(const Pattern& pattern) {
   return m;
 }
 
-/// M = B + u t, t being 1 at the facet's corners and u_r the smallest weight of a corner in vertex r: what is left in B couples
-/// neighbouring sectors only. w M = w becomes w (1 − B) = (w · u) t, and up to a factor (1 − B)^T w = t.
+/// M = B + u t + v q, where t is 1 at the facet's corners and q at the corners across its sides, and u_r and v_r are the least
+/// weights that vertex r takes from these: what is left in B couples neighbouring sectors, but for corners next to boundary
+/// edges. w M = w becomes w (1 − B) = (w · u) t + (w · v) q. With (1 − B)^T y = t and (1 − B)^T z = q, w is a y + b z for
+/// a = w · u = a y · u + b z · u.
 std::vector<Rational> midedge_boundary_weights(const Pattern& pattern) {
   HEXACT_EXPECTS(touches_boundary(pattern) && !stands_alone(pattern));
   const Matrix m = midedge_boundary_operator(pattern);
-  std::vector<std::uint32_t> corners = corner_places(pattern);
-  corners.pop_back();
-  if (!reaches_everywhere(m, corners[0])) throw NumericalFailure("the limit at the boundary could not be proved");
+  const NetPlaces places = net_places(pattern);
+  if (!reaches_everywhere(m, places.corners[0])) throw NumericalFailure("the limit at the boundary could not be proved");
   const auto n = static_cast<std::uint32_t>(m.size());
   std::vector<SparseRow> a(n);
+  std::vector<Rational> u;
   for (std::uint32_t r = 0; r < n; ++r) {
-    Rational shared = m[r][corners[0]];
-    for (const std::uint32_t c : corners) shared = std::min(shared, m[r][c]);
     std::vector<Rational> rest = m[r];
-    for (const std::uint32_t c : corners) rest[c] = rest[c] - shared;
+    u.push_back(take_shared(rest, places.corners));
+    (void)take_shared(rest, places.opposites);
     rest[r] = rest[r] - Rational(1);
     for (std::uint32_t c = 0; c < n; ++c) {
       if (!rest[c].is_zero()) a[c][r] = -rest[c];
     }
   }
-  for (const std::uint32_t c : corners) a[c][n] = Rational(1);
-  std::vector<Rational> w = solved(std::move(a));
+  for (const std::uint32_t c : places.corners) a[c][n] = Rational(1);
+  for (const std::uint32_t c : places.opposites) a[c][n + 1] = Rational(1);
+  const auto [y, z] = solved_in_order(a);
+  const Rational first = dot(z, u), second = Rational(1) - dot(y, u);
+  std::vector<Rational> w(n);
   Rational sum;
-  for (const Rational& x : w) sum += x;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    w[i] = first * y[i] + second * z[i];
+    sum += w[i];
+  }
   for (Rational& x : w) x = x / sum;
   check_weights(m, w);
   return w;
@@ -209,7 +272,7 @@ std::vector<Rational> midedge_boundary_weights(const Pattern& pattern) {
 
 void MidedgeBoundaryLimits::prepare(Pattern pattern) {
   std::rotate(pattern.begin(), pattern.begin() + static_cast<std::ptrdiff_t>(first_corner(pattern)), pattern.end());
-  if (weights_.count(pattern) > 0 || corner_places(pattern).back() > kLargestNet) return;
+  if (weights_.count(pattern) > 0 || net_places(pattern).size > kLargestNet) return;
   std::vector<Rational> weights = midedge_boundary_weights(pattern);
   weights_.emplace(std::move(pattern), std::move(weights));
 }

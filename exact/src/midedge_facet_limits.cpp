@@ -6,6 +6,7 @@
 #include "hexact/kernel/midedge_part.hpp"
 #include "hexact/kernel/parallel.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@ using Point = Point3<Rational>;
 using FacetLimit = std::optional<MidedgeLimit>;
 
 constexpr std::size_t kGrain = 16;
+constexpr std::size_t kBatch = 4096;       ///< facets refined together: bounds the memory
 constexpr unsigned kMostDropSteps = 8;     ///< a facet that has no two rings by then never gets them
 constexpr unsigned kMostCloseSteps = 200;  ///< a run of n boundary vertices with two edges lasts n steps
 
@@ -62,18 +64,29 @@ class LimitSearch {
   LimitSearch(const MidedgeLimitPlan& plan, std::size_t count) : plan_(plan), inner_(plan.rule), results_(count) {}
 
   std::vector<FacetLimit> run(const Level& level, std::span<const std::uint32_t> facets) {
-    Pending pending{{facets.begin(), facets.end()}, std::vector<std::uint32_t>(facets.size())};
-    std::iota(pending.slots.begin(), pending.slots.end(), 0u);
-    std::optional<Level> part;
-    for (unsigned steps = 0;; steps += 2) {
-      pending = settle(part ? *part : level, pending);
-      if (pending.facets.empty() || given_up(steps, part ? *part : level, pending)) return std::move(results_);
-      part = stepped_part(part ? *part : level, pending.facets);
-      std::iota(pending.facets.begin(), pending.facets.end(), 0u);
+    Pending all{{facets.begin(), facets.end()}, std::vector<std::uint32_t>(facets.size())};
+    std::iota(all.slots.begin(), all.slots.end(), 0u);
+    const Pending waiting = settle(level, all);
+    for (std::size_t begin = 0; begin < waiting.facets.size(); begin += kBatch) {
+      const auto batch = [&](const std::vector<std::uint32_t>& list) {
+        return std::vector<std::uint32_t>(list.begin() + static_cast<std::ptrdiff_t>(begin),
+                                          list.begin() + static_cast<std::ptrdiff_t>(std::min(begin + kBatch, list.size())));
+      };
+      refine(level, {batch(waiting.facets), batch(waiting.slots)});
     }
+    return std::move(results_);
   }
 
  private:
+  /// Two steps at a time, until all limits are there or given up.
+  void refine(const Level& level, Pending pending) {
+    std::optional<Level> part;
+    for (unsigned steps = 0; !pending.facets.empty() && !given_up(steps, part ? *part : level, pending); steps += 2) {
+      part = stepped_part(part ? *part : level, pending.facets);
+      std::iota(pending.facets.begin(), pending.facets.end(), 0u);
+      pending = settle(*part, pending);
+    }
+  }
   [[nodiscard]] Pending settle(const Level& level, const Pending& pending);
   [[nodiscard]] FacetLimit limit(const Level& level, std::uint32_t f, Stage stage) const;
   [[nodiscard]] bool given_up(unsigned steps, const Level& level, const Pending& pending);

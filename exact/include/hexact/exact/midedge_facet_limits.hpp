@@ -21,7 +21,7 @@ struct MidedgeLimitPlan {
 /// Limits of the centres of some facets of a level, for ever refined by the rule and the policy.
 ///
 /// Facets whose surroundings are not yet those that further steps keep are refined together with the two rings around
-/// them (`midedge_part`) until they are; everything is exact.
+/// them (`midedge_part`) until they are, some thousands at a time; everything is exact.
 /// - Simple rule: the mean of the corners, at once.
 /// - Six-point rule, inner facets: `MidedgeLimits`.
 /// - `dual`, facets that touch the boundary: `MidedgeBoundaryLimits`, a point and no normal; nothing where that has none.
