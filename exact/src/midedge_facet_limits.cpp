@@ -21,7 +21,7 @@ using FacetLimit = std::optional<MidedgeLimit>;
 constexpr std::size_t kGrain = 16;
 constexpr std::size_t kBatch = 4096;       ///< facets refined together: bounds the memory
 constexpr unsigned kMostDropSteps = 8;     ///< a facet that has no two rings by then never gets them
-constexpr unsigned kMostCloseSteps = 200;  ///< a run of n boundary vertices with two edges lasts n steps
+constexpr std::size_t kLongestRun = 200;   ///< of boundary vertices with two edges, under `close`: n of them last n steps
 
 /// What is known of a facet on some level.
 enum class Stage : std::uint8_t {
@@ -29,8 +29,20 @@ enum class Stage : std::uint8_t {
   inner,        ///< MidedgeLimits has its limit
   at_boundary,  ///< MidedgeBoundaryLimits has it
   mean,         ///< the mean of its corners is the limit, without normal
+  endless,      ///< it would take too many steps
   never,
 };
+
+/// Corners in a row with both sides on the boundary. Precondition: the facet does not stand alone.
+std::size_t longest_run(const MidedgeBoundaryPattern& pattern) {
+  std::size_t longest = 0, run = 0;
+  for (std::size_t i = 0; i < 2 * pattern.size(); ++i) {
+    const bool on_boundary = pattern[i % pattern.size()] == MidedgeCorner::rim;
+    run = on_boundary ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest == 0 ? 0 : longest - 1;  // the first of the sides has a corner with another edge
+}
 
 Stage stage_of(const MidedgeMap& map, std::uint32_t f, const MidedgeLimitPlan& plan) {
   const MidedgeBoundaryPattern pattern = midedge_boundary_pattern(map, f);
@@ -38,7 +50,7 @@ Stage stage_of(const MidedgeMap& map, std::uint32_t f, const MidedgeLimitPlan& p
   if (!touches_boundary(pattern)) return simple || !midedge_net(map, f).empty() ? Stage::inner : Stage::waiting;
   if (plan.boundary == MidedgeBoundary::drop) return simple ? Stage::mean : Stage::never;
   if (stands_alone(pattern)) return Stage::mean;
-  if (plan.boundary == MidedgeBoundary::close) return Stage::waiting;
+  if (plan.boundary == MidedgeBoundary::close) return longest_run(pattern) > kLongestRun ? Stage::endless : Stage::waiting;
   if (simple) return Stage::mean;
   return midedge_boundary_net(map, f) ? Stage::at_boundary : Stage::waiting;
 }
@@ -81,7 +93,7 @@ class LimitSearch {
   /// Two steps at a time, until all limits are there or given up.
   void refine(const Level& level, Pending pending) {
     std::optional<Level> part;
-    for (unsigned steps = 0; !pending.facets.empty() && !given_up(steps, part ? *part : level, pending); steps += 2) {
+    for (unsigned steps = 0; !pending.facets.empty() && !given_up(steps); steps += 2) {
       part = stepped_part(part ? *part : level, pending.facets);
       std::iota(pending.facets.begin(), pending.facets.end(), 0u);
       pending = settle(*part, pending);
@@ -89,7 +101,7 @@ class LimitSearch {
   }
   [[nodiscard]] Pending settle(const Level& level, const Pending& pending);
   [[nodiscard]] FacetLimit limit(const Level& level, std::uint32_t f, Stage stage) const;
-  [[nodiscard]] bool given_up(unsigned steps, const Level& level, const Pending& pending);
+  [[nodiscard]] bool given_up(unsigned steps) const;
   [[nodiscard]] Level stepped_part(const Level& level, std::span<const std::uint32_t> facets) const;
 
   const MidedgeLimitPlan plan_;
@@ -130,6 +142,10 @@ FacetLimit LimitSearch::limit(const Level& level, std::uint32_t f, Stage stage) 
       return std::nullopt;
     case Stage::mean:
       return MidedgeLimit{mean_of(level, level.map.loop(f)), std::nullopt};
+    case Stage::endless:
+      if (plan_.rule == MidedgeRule::simple) return limit(level, f, Stage::mean);
+      throw ResourceLimit("limit points need more than " + std::to_string(kLongestRun) + " further steps: " + facet_name(f) +
+                          " has as many boundary vertices with two edges in a row");
     case Stage::waiting:
     case Stage::never:
       break;
@@ -137,23 +153,10 @@ FacetLimit LimitSearch::limit(const Level& level, std::uint32_t f, Stage stage) 
   return std::nullopt;
 }
 
-bool LimitSearch::given_up(unsigned steps, const Level& level, const Pending& pending) {
-  switch (plan_.boundary) {
-    case MidedgeBoundary::dual:
-      HEXACT_INVARIANT(steps < 12);
-      return false;
-    case MidedgeBoundary::drop:
-      return steps >= kMostDropSteps;
-    case MidedgeBoundary::close:
-      break;
-  }
-  if (steps < kMostCloseSteps) return false;
-  if (plan_.rule == MidedgeRule::six_point) {
-    throw ResourceLimit("limit points need more than " + std::to_string(kMostCloseSteps) +
-                        " further steps: the mesh has long runs of boundary vertices with two edges");
-  }
-  for (std::size_t i = 0; i < pending.facets.size(); ++i) results_[pending.slots[i]] = limit(level, pending.facets[i], Stage::mean);
-  return true;
+bool LimitSearch::given_up(unsigned steps) const {
+  if (plan_.boundary == MidedgeBoundary::drop) return steps >= kMostDropSteps;
+  HEXACT_INVARIANT(steps < kLongestRun + 16);
+  return false;
 }
 
 /// Two steps of the facets and two rings around them; they become the first facets.

@@ -133,8 +133,12 @@ TEST_CASE("close: long runs of boundary vertices with two edges take as many ste
   REQUIRE((a[0] && a[1] && b[0] && b[1]));
   CHECK((a[0]->point == b[0]->point && a[1]->point == b[1]->point));
   CHECK(a[0]->normal);
-  const Level long_run = mesh(210);
+  // 201 vertices in a row: too many.
+  const Level long_run = mesh(203);
   CHECK(limits_of(long_run, simple, 1)[0]->point == mean(long_run, long_run.map.loop(0)));
+  CHECK_FALSE(limits_of(long_run, simple, 1)[0]->normal);
+  CHECK(refusal([&] { (void)limits_of(long_run, six, 1); }).find("facet 0 has as many boundary vertices") != std::string::npos);
+  CHECK(limits_of(mesh(60), simple, 1)[0]->normal);
 }
 
 TEST_CASE("dual: the surface ends half a cell inside, at the middle of each boundary fan", "[midedge]") {
@@ -225,6 +229,29 @@ TEST_CASE("close: boundary vertices go to the mean of their loop, which all leve
     CHECK(mean(next, rim(next)) == mean(later, rim(later)));
     next = later;
   }
+}
+
+TEST_CASE("thousands of facets that have to be refined further each have their own limit", "[midedge]") {
+  // Copies of two triangles side by side, more than are refined together.
+  constexpr int kCopies = 2100;
+  std::vector<Point> points;
+  std::vector<std::vector<int>> facets;
+  for (int i = 0; i < kCopies; ++i) {
+    for (const Point& p : {Point{0, 0, 0}, Point{3, 0, 1}, Point{1, 4, 0}, Point{5, 5, 2}}) points.push_back({p.x + Rational(i), p.y, p.z - Rational(2 * i)});
+    facets.push_back({4 * i, 4 * i + 1, 4 * i + 2});
+    facets.push_back({4 * i + 1, 4 * i + 3, 4 * i + 2});
+  }
+  const Level level = level_of(points, facets);
+  const Limits limits = limits_of(level, {}, facets.size());
+  for (std::size_t i = 0; i < kCopies; ++i) {
+    for (std::size_t f = 0; f < 2; ++f) {
+      REQUIRE(limits[2 * i + f]);
+      const Point& p = limits[f]->point;
+      const Rational shift(static_cast<long>(i));
+      CHECK(limits[2 * i + f]->point == Point{p.x + shift, p.y, p.z - Rational(2) * shift});
+    }
+  }
+  CHECK(limits[0]->point != limits[1]->point);
 }
 
 TEST_CASE("what cannot be limited is refused", "[midedge]") {

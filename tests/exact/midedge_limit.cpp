@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 using namespace hexact;
 using namespace hexact::midedge_samples;
@@ -188,6 +190,38 @@ TEST_CASE("quadratic data goes to itself and 5/16 of its Laplacian", "[midedge]"
       CHECK(m.x == -m.z * (Rational(4) * x - y + Rational(1)));
       CHECK(m.y == -m.z * (Rational(6) * y - x));
       CHECK(m.z.sign() > 0);
+    }
+  }
+}
+
+TEST_CASE("nets end where a vertex of another valence decides on the next net", "[midedge]") {
+  // n sectors of m × m quadrilaterals around a vertex of valence n.
+  const int m = 6;
+  for (const int n : {3, 5}) {
+    std::vector<Point> points{{1, 2, 3}};
+    std::vector<std::vector<int>> facets;
+    std::map<std::array<int, 3>, int> numbers;
+    const auto vertex = [&](int s, int i, int j) {
+      if (i == 0) std::tie(s, i, j) = std::tuple((s + 1) % n, j, 0);  // on the next axis
+      if (i == 0) return 0;
+      const auto [at, added] = numbers.try_emplace({s, i, j}, static_cast<int>(points.size()));
+      if (added) points.push_back({i * i + 5 * s * j, j * j - i * s, (7 * i + 3 * j * s) % 5});
+      return at->second;
+    };
+    for (int s = 0; s < n; ++s) {
+      for (int a = 0; a < m; ++a) {
+        for (int b = 0; b < m; ++b) facets.push_back({vertex(s, a, b), vertex(s, a + 1, b), vertex(s, a + 1, b + 1), vertex(s, a, b + 1)});
+      }
+    }
+    const Level level = level_of(points, facets), next = midedge_double_step(level, MidedgeRule::six_point);
+    const MidedgeLimits limits = prepared(MidedgeRule::six_point, next.map);
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+      const std::uint32_t a = f / m % m, b = f % m;
+      const bool two_rings = a + 2 < m && b + 2 < m;
+      CAPTURE(n, a, b);
+      CHECK(midedge_net(level.map, f).empty() == !(two_rings && (a > 1 || b > 1)));
+      const auto now = limits(level, f), later = limits(next, f);
+      if (now) CHECK(now->point == later->point);
     }
   }
 }

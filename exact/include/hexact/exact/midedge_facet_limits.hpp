@@ -28,7 +28,8 @@ struct MidedgeLimitPlan {
 /// - `close`: facets leave the boundary, so they become inner ones. A facet that stands alone draws together to its mean.
 /// - `drop`: nothing for facets that touch the boundary or never get two rings away from it, but for the simple rule.
 /// Precondition: different facets of the level. The result does not depend on the number of threads.
-/// Throws ResourceLimit where further steps would make more than `most_facets` facets, or under `close` take more than 200.
+/// Throws ResourceLimit where further steps would make more than `most_facets` facets, or under `close` take more than 200
+/// because a facet has more boundary vertices with two edges in a row; then the simple rule gives the mean without normal.
 [[nodiscard]] std::vector<std::optional<MidedgeLimit>> midedge_facet_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
                                                                            std::span<const std::uint32_t> facets);
 
