@@ -135,7 +135,28 @@ class ModeCheck {
   std::vector<int> found_;
 };
 
+bool meet(const RationalInterval& a, const RationalInterval& b) { return a.lo <= b.hi && b.lo <= a.hi; }
+
 }  // namespace
+
+ModeSpectrum disjoint_eigenvalues(const ModeSpectrum& mode) {
+  ModeSpectrum out;
+  out.remaining = mode.remaining;
+  out.remaining_bound = mode.remaining_bound;
+  for (std::size_t i = 0; i < mode.isolated.size(); ++i) {
+    const Eigenvalue& e = mode.isolated[i];
+    bool alone = true;
+    for (std::size_t j = 0; j < mode.isolated.size(); ++j) alone = alone && (i == j || !meet(e.enclosure, mode.isolated[j].enclosure));
+    if (alone || is_exact(e)) {
+      out.isolated.push_back(e);
+      continue;
+    }
+    out.remaining += e.multiplicity;
+    const Rational size = std::max(abs(e.enclosure.lo), abs(e.enclosure.hi)) + Rational(1).scaled(-60);
+    out.remaining_bound = std::max(out.remaining_bound, size);
+  }
+  return out;
+}
 
 std::string eigenvalue_fault(const ModeSpectrum& listed, const std::vector<CharacteristicFactor>& factors, int k, std::size_t n) {
   return ModeCheck(listed, k).fault(factors, n);

@@ -18,4 +18,8 @@ namespace hexact {
 /// Exact where cos(2π angle/k) is rational or does not matter, else with it in an interval.
 [[nodiscard]] std::string eigenvalue_fault(const ModeSpectrum& listed, const std::vector<CharacteristicFactor>& factors, int k, std::size_t n);
 
+/// The same eigenvalues as `eigenvalue_fault` can take them: intervals that meet another eigenvalue of the list, from
+/// another factor, are no longer listed but only bounded.
+[[nodiscard]] ModeSpectrum disjoint_eigenvalues(const ModeSpectrum& mode);
+
 }  // namespace hexact

@@ -138,8 +138,9 @@ void add_row(SpectrumCertificate& certificate, const SpectrumRow& proved, std::o
   row.valence = proved.valence;
   row.mask = std::move(mask);
   row.cosine = cosine_interval(proved.valence);
-  row.modes = proved.modes;
-  if (std::any_of(row.modes.begin(), row.modes.end(), [](const ModeSpectrum& m) { return m.remaining > 0; })) {
+  for (const ModeSpectrum& m : proved.modes) row.modes.push_back(disjoint_eigenvalues(m));
+  const bool bounded = std::any_of(row.modes.begin(), row.modes.end(), [](const ModeSpectrum& m) { return m.remaining > 0; });
+  if (bounded || row.mask) {  // of masks anything may come; the program's schemes are known to need no disc
     bool found = false;
     for (long step = 0; step < 8 && !found; ++step) found = holds(certificate.scheme, row, claims.front().kind, Rational(step).scaled(-20));
     if (!found) return;

@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 using namespace hexact;
@@ -130,6 +132,26 @@ TEST_CASE("complex and clustered eigenvalues are certified by a disc", "[spectru
   }
   CHECK(with_disc > 15);
   CHECK(ordered > 1);
+}
+
+TEST_CASE("an eigenvalue that two factors have is certified, although one of them knows only an interval", "[spectrum][certificate]") {
+  // A decagon with λ = 3/8 ± √5/18 in modes 1 and 3, and 1/4 in modes 2 and 4, where cosines are irrational, and 5.
+  const Rational a = fraction(3, 8), b = fraction(1, 18), quarter = fraction(1, 4);
+  const std::vector<Rational> of_1_and_3{Rational(2) * a, (a + Rational(5) * b) / Rational(2), (Rational(5) * b - a) / Rational(2),
+                                         (a - Rational(5) * b) / Rational(2), -(a + Rational(5) * b) / Rational(2), Rational(-2) * a};
+  std::vector<Rational> w;
+  for (std::size_t d = 0; d < 10; ++d) {
+    const Rational of_2_and_4 = quarter * (d % 5 == 0 ? Rational(2) : fraction(-1, 2));
+    w.push_back((Rational(1) + Rational(2) * (of_1_and_3[std::min(d, 10 - d)] + of_2_and_4) + (d % 2 == 0 ? quarter : -quarter)) / Rational(10));
+  }
+  const MasksDocument masks = weights(SpectrumScheme::doo_sabin, 10, w);
+  const SpectrumRow row = spectrum_row(mask_subject(masks, masks.masks[0]));
+  REQUIRE(overall(row) == Verdict::proved);
+  CHECK(row.subdominant->enclosure.lo.to_double() == Approx(0.375 + std::sqrt(5.0) / 18));
+  const Checkers checkers;
+  const std::string text = text_of_masks(masks);
+  CHECK(text.find("\ndisc 1 ") != std::string::npos);
+  CHECK(checkers.of(text).claims == all_proved({"ordering=10", "ring=10", "c1=10"}));
 }
 
 TEST_CASE("spectrum writes certificates of masks and says what they state", "[spectrum][program][masks]") {

@@ -40,8 +40,9 @@ struct Eigenvalue {
   int multiplicity = 1;        ///< algebraic, of this number (equal ends) or of the one number inside, in this mode
 };
 
-/// All that was proved of the eigenvalues of a mode: `isolated` in decreasing order, disjoint; and `remaining` further
-/// ones, real or not, that no isolating interval was found for.
+/// All that was proved of the eigenvalues of a mode: `isolated` in decreasing order; and `remaining` further
+/// ones, real or not, that no isolating interval was found for. Intervals of one factor are disjoint; one may meet an
+/// eigenvalue of another factor, even be the same number, as where a polynomial in an irrational cosine is 1/4.
 struct ModeSpectrum {
   std::vector<Eigenvalue> isolated;
   int remaining = 0;
