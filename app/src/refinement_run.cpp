@@ -5,6 +5,7 @@
 #include "hexact/exact/body_from_soup.hpp"
 #include "hexact/exact/certify.hpp"
 #include "hexact/io/mesh_file.hpp"
+#include "level_row.hpp"
 #include "limit_points_output.hpp"
 
 #include <fmt/format.h>
@@ -32,19 +33,7 @@ Counts counts_after(const PlaneBody& body, const RefinementPlan& plan) {
 }
 
 nlohmann::ordered_json level_row(const Refinement& refinement, const StepReport& step, const HoneycombStatistics& s) {
-  const HoneycombMap& map = refinement.map();
-  nlohmann::ordered_json row;
-  row["level"] = map.level();
-  row["vertices"] = map.vertex_count();
-  row["edges"] = map.edge_count();
-  row["faces"] = map.facet_count();
-  row["seconds"] = step.seconds;
-  row["max_normal_angle_deg"] = s.max_normal_angle_deg;
-  row["median_normal_angle_deg"] = s.median_normal_angle_deg;
-  row["longest_edge"] = s.longest_edge;
-  row["shortest_edge"] = s.shortest_edge;
-  row["max_facet_diameter"] = s.max_facet_diameter;
-  row["delta"] = nullptr;
+  nlohmann::ordered_json row = level_row(counts_of(refinement.map()), step.seconds, s);
   if (step.least_delta) row["delta"] = *step.least_delta;
   if (!step.delta.empty()) row["delta"] = step.delta;
   if (step.plane_bits) row["plane_bits"] = *step.plane_bits;

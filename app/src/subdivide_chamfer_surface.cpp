@@ -6,6 +6,7 @@
 #include "hexact/exact/chamfer_surface.hpp"
 #include "hexact/io/mesh_file.hpp"
 #include "hexact/kernel/mesh_topology.hpp"
+#include "level_row.hpp"
 
 #include <fmt/format.h>
 
@@ -17,11 +18,6 @@
 
 namespace hexact::app {
 namespace {
-
-struct Figures {
-  std::vector<double> angles;  ///< degrees between neighbouring normals
-  double longest = 0, shortest = std::numeric_limits<double>::infinity(), diameter = 0;
-};
 
 std::vector<Point3<double>> unit_normals(const IntegerPlanes& planes) {
   std::vector<Point3<double>> out;
@@ -37,51 +33,46 @@ std::vector<Point3<double>> unit_normals(const IntegerPlanes& planes) {
 
 double distance(const Point3<double>& p, const Point3<double>& q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); }
 
-Figures measure(const ChamferSurface& surface) {
+HoneycombStatistics measure(const ChamferSurface& surface) {
   const auto normals = unit_normals(surface.body.planes);
   const auto points = rounded_vertices(surface.body).points;
   const HalfEdges e = half_edges_of(surface.body.loops);
-  Figures out;
+  HoneycombStatistics out;
+  out.shortest_edge = std::numeric_limits<double>::infinity();
+  std::vector<double> angles;
   for (std::uint32_t h = 0; h < e.size(); ++h) {
     if (e.twin[h] != kNoTwin && e.twin[h] < h) continue;
     const double l = distance(points[e.origin[h]], points[e.target(h)]);
-    out.longest = std::max(out.longest, l);
-    out.shortest = std::min(out.shortest, l);
+    out.longest_edge = std::max(out.longest_edge, l);
+    out.shortest_edge = std::min(out.shortest_edge, l);
     if (e.twin[h] == kNoTwin) continue;
     const auto &p = normals[e.facet[h]], &q = normals[surface.right[h]];
     const double sine = std::hypot(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
-    out.angles.push_back(std::atan2(sine, p.x * q.x + p.y * q.y + p.z * q.z) * 180 / std::numbers::pi);
+    angles.push_back(std::atan2(sine, p.x * q.x + p.y * q.y + p.z * q.z) * 180 / std::numbers::pi);
   }
   for (std::size_t f = 0; f < surface.body.loops.size(); ++f) {
     const auto loop = surface.body.loops[f];
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) out.diameter = std::max(out.diameter, distance(points[index(loop[i])], points[index(loop[j])]));
+      for (std::size_t j = 0; j < i; ++j) {
+        out.max_facet_diameter = std::max(out.max_facet_diameter, distance(points[index(loop[i])], points[index(loop[j])]));
+      }
     }
   }
-  if (out.angles.empty()) out.angles.push_back(0);
-  std::sort(out.angles.begin(), out.angles.end());
+  if (angles.empty()) return out;
+  std::sort(angles.begin(), angles.end());
+  out.max_normal_angle_deg = angles.back();
+  out.median_normal_angle_deg = angles[(angles.size() - 1) / 2];
   return out;
 }
 
-nlohmann::ordered_json level_row(const ChamferSurface& surface, const Figures& figures, double seconds) {
+nlohmann::ordered_json level_row(const ChamferSurface& surface, const HoneycombStatistics& statistics, double seconds) {
   const MeshTopology topology = analyse_topology(surface.body.loops, surface.body.vertex_count());
   std::size_t bits = 0;
   for (std::size_t f = 0; f < surface.body.planes.size(); ++f) {
     const Plane<Integer> p = surface.body.planes[f];
     bits = std::max({bits, p.a.bit_length(), p.b.bit_length(), p.c.bit_length(), p.d.bit_length()});
   }
-  nlohmann::ordered_json row;
-  row["level"] = surface.level;
-  row["vertices"] = topology.vertices;
-  row["edges"] = topology.edges;
-  row["faces"] = topology.facets;
-  row["seconds"] = seconds;
-  row["max_normal_angle_deg"] = figures.angles.back();
-  row["median_normal_angle_deg"] = figures.angles[(figures.angles.size() - 1) / 2];
-  row["longest_edge"] = figures.longest;
-  row["shortest_edge"] = figures.shortest;
-  row["max_facet_diameter"] = figures.diameter;
-  row["delta"] = nullptr;
+  nlohmann::ordered_json row = level_row(LevelCounts{surface.level, topology.vertices, topology.edges, topology.facets}, seconds, statistics);
   row["plane_bits"] = bits;
   row["concave_edges"] = concave_edge_count(surface);
   return row;
@@ -120,11 +111,11 @@ struct Stop {
   bool keep_new = true;
   std::string reason;
 };
-Stop stopping(const SubdivideOptions& options, const Figures& figures, unsigned level) {
-  if (options.stop_min_edge > 0 && figures.shortest < options.stop_min_edge) {
-    return {false, fmt::format("level {} would have an edge of {:.6g}, below --stop-min-edge", level, figures.shortest)};
+Stop stopping(const SubdivideOptions& options, const HoneycombStatistics& statistics, unsigned level) {
+  if (options.stop_min_edge > 0 && statistics.shortest_edge < options.stop_min_edge) {
+    return {false, fmt::format("level {} would have an edge of {:.6g}, below --stop-min-edge", level, statistics.shortest_edge)};
   }
-  if (options.stop_max_panel > 0 && figures.diameter <= options.stop_max_panel) {
+  if (options.stop_max_panel > 0 && statistics.max_facet_diameter <= options.stop_max_panel) {
     return {true, fmt::format("level {} is the first with all panels within --stop-max-panel", level)};
   }
   return {};
@@ -158,12 +149,12 @@ Outcome subdivide_chamfer_surface(const BodyInput& input, const SubdivideOptions
     const auto start = std::chrono::steady_clock::now();
     ChamferSurface next = chamfer_surface_step(surface);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Figures figures = measure(next);
-    const Stop stop = stopping(options, figures, l);
+    const HoneycombStatistics statistics = measure(next);
+    const Stop stop = stopping(options, statistics, l);
     stopped = stop.reason;
     if (!stop.keep_new) break;
     surface = std::move(next);
-    rows.push_back(level_row(surface, figures, seconds));
+    rows.push_back(level_row(surface, statistics, seconds));
     if (!options.all_levels.empty()) write_geometry(output_of(options, level_path(options.all_levels, l), common), surface.body);
   }
   Outcome outcome;

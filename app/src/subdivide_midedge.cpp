@@ -4,6 +4,7 @@
 #include "hexact/exact/midedge.hpp"
 #include "hexact/kernel/midedge_counts.hpp"
 #include "hexact/kernel/midedge_statistics.hpp"
+#include "level_row.hpp"
 #include "midedge_limit_output.hpp"
 #include "subdivide.hpp"
 
@@ -79,18 +80,7 @@ template <class S>
 nlohmann::ordered_json level_row(const MidedgeMap& map, const PointArray<S>& exact, double seconds) {
   const std::vector<Point3<double>> points = in_doubles<S>(exact);
   const HoneycombStatistics s = measure(map, points, newell_normals(map, points));
-  nlohmann::ordered_json row;
-  row["level"] = map.level();
-  row["vertices"] = map.vertex_count();
-  row["edges"] = map.edge_count();
-  row["faces"] = map.facet_count();
-  row["seconds"] = seconds;
-  row["max_normal_angle_deg"] = s.max_normal_angle_deg;
-  row["median_normal_angle_deg"] = s.median_normal_angle_deg;
-  row["longest_edge"] = s.longest_edge;
-  row["shortest_edge"] = s.shortest_edge;
-  row["max_facet_diameter"] = s.max_facet_diameter;
-  row["delta"] = nullptr;
+  nlohmann::ordered_json row = level_row(counts_of(map), seconds, s);
   row["area"] = fanned_area(map, points);
   row["volume"] = nullptr;
   if (map.closed()) row["volume"] = fanned_volume(map, points, points.front());
