@@ -5,9 +5,6 @@
 #include "hexact/kernel/progress.hpp"
 #include "rounded_number.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -228,25 +225,8 @@ Point3<QuadraticField> sqrt5_vertex(const PlaneBody& body, VertexId v) {
 RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format) { return rounded_vertices(body, format, {}); }
 
 RoundedVertices rounded_vertices(const PlaneBody& body, FloatFormat format, const ProgressPart& progress) {
-  RoundedVertices out;
-  out.points.resize(body.vertex_count());
   const auto place = body.field == Field::rational ? placement_in_doubles(body) : std::nullopt;
-  using Range = tbb::blocked_range<std::size_t>;
-  // The maximum of squares does not depend on the order of the reduction.
-  const double largest = tbb::parallel_reduce(
-      Range(0, body.vertex_count(), 1 << 10), 0.0,
-      [&](const Range& range, double worst) {
-        progress.check();
-        for (std::size_t v = range.begin(); v != range.end(); ++v) {
-          const RoundedPoint p = round_vertex(body, place, v, format);
-          out.points[v] = {p[0].value, p[1].value, p[2].value};
-          worst = std::max(worst, detail::error_length(p));
-        }
-        return worst;
-      },
-      [](double a, double b) { return std::max(a, b); });
-  out.max_rounding = detail::length_bound(largest);
-  return out;
+  return detail::round_all(body.vertex_count(), 1 << 10, [&](std::size_t v) { return round_vertex(body, place, v, format); }, progress);
 }
 
 }  // namespace hexact

@@ -4,6 +4,9 @@
 #include "hexact/exact/rounding.hpp"
 #include "hexact/kernel/errors.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,5 +62,28 @@ inline double error_length(const RoundedPoint& p) {
   return m * std::sqrt(x * x + y * y + z * z);
 }
 inline double length_bound(double largest) { return largest == 0 ? 0 : upper(largest * (1 + 0x1p-48)); }
+
+/// `round(v)`, a RoundedPoint, for v < count in parallel, `grain` at a time. The result does not depend on the number of
+/// threads: a maximum does not depend on the order of the reduction.
+template <class Round>
+RoundedVertices round_all(std::size_t count, std::size_t grain, const Round& round, const ProgressPart& progress) {
+  RoundedVertices out;
+  out.points.resize(count);
+  using Range = tbb::blocked_range<std::size_t>;
+  const double largest = tbb::parallel_reduce(
+      Range(0, count, grain), 0.0,
+      [&](const Range& range, double worst) {
+        progress.check();
+        for (std::size_t v = range.begin(); v != range.end(); ++v) {
+          const RoundedPoint p = round(v);
+          out.points[v] = {p[0].value, p[1].value, p[2].value};
+          worst = std::max(worst, error_length(p));
+        }
+        return worst;
+      },
+      [](double a, double b) { return std::max(a, b); });
+  out.max_rounding = length_bound(largest);
+  return out;
+}
 
 }  // namespace hexact::detail

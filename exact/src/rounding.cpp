@@ -3,9 +3,6 @@
 
 #include "rounded_number.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_reduce.h>
-
 namespace hexact {
 namespace {
 
@@ -18,25 +15,11 @@ float exact_float(const S& x) {
 
 template <class S>
 RoundedVertices round_all(const std::vector<Point3<S>>& points, FloatFormat format, const ProgressPart& progress) {
-  RoundedVertices out;
-  out.points.resize(points.size());
-  using Range = tbb::blocked_range<std::size_t>;
-  const double largest = tbb::parallel_reduce(
-      Range(0, points.size(), 1 << 8), 0.0,
-      [&](const Range& range, double worst) {
-        progress.check();
-        for (std::size_t v = range.begin(); v != range.end(); ++v) {
-          const auto& x = points[v];
-          const detail::RoundedPoint p{detail::round_exactly(x.x, format), detail::round_exactly(x.y, format),
-                                       detail::round_exactly(x.z, format)};
-          out.points[v] = {p[0].value, p[1].value, p[2].value};
-          worst = std::max(worst, detail::error_length(p));
-        }
-        return worst;
-      },
-      [](double a, double b) { return std::max(a, b); });
-  out.max_rounding = detail::length_bound(largest);
-  return out;
+  const auto round = [&](std::size_t v) {
+    const Point3<S>& x = points[v];
+    return detail::RoundedPoint{detail::round_exactly(x.x, format), detail::round_exactly(x.y, format), detail::round_exactly(x.z, format)};
+  };
+  return detail::round_all(points.size(), 1 << 8, round, progress);
 }
 
 /// The neighbours of x among the float32 numbers and ±2^128, as doubles; equal where x is one of them.
