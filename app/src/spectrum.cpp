@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <memory>
 
 namespace hexact::app {
@@ -166,36 +167,53 @@ SpectrumCertificate certificate_of(const Request& request, const std::vector<Spe
                         : make_spectrum_certificate(*request.masks, rows, std::move(provenance));
 }
 
+/// " ordering=3..50 ring=3..50,52": claims by kind, neighbouring valences together.
+std::string claims_text(const std::vector<SpectrumClaim>& claims) {
+  std::map<SpectrumClaimKind, std::vector<int>> valences;
+  for (const SpectrumClaim& claim : claims) valences[claim.kind].push_back(claim.valence);
+  std::string text;
+  for (const auto& [kind, list] : valences) {
+    text += " " + text_of({kind, list.front()});
+    for (std::size_t i = 0, end = 0; i < list.size(); i = end) {
+      for (end = i + 1; end < list.size() && list[end] == list[end - 1] + 1; ++end) {}
+      if (i > 0) text += "," + std::to_string(list[i]);
+      if (end - i > 1) text += (end - i > 2 ? ".." : ",") + std::to_string(list[end - 1]);
+    }
+  }
+  return text;
+}
+
+nlohmann::ordered_json claims_json(const std::vector<SpectrumClaim>& claims) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const SpectrumClaim& claim : claims) json.push_back(text_of(claim));
+  return json;
+}
+
 /// Writes the certificate, unless it would state nothing, and reports what it states and what it leaves out.
 void write_certificate(Outcome& outcome, const Request& request, const std::vector<SpectrumRow>& rows,
                        const std::optional<RegularSmoothness>& regular, const SpectrumOptions& options) {
   SpectrumCertificate certificate = certificate_of(request, rows, options);
-  nlohmann::ordered_json stated = nlohmann::ordered_json::array(), omitted = nlohmann::ordered_json::array();
-  std::string stated_text, omitted_text;
+  std::vector<SpectrumClaim> omitted;
   for (const SpectrumRow& row : rows) {
     for (const SpectrumClaim& claim : proved_claims(row)) {
-      const bool is_stated = std::find(certificate.claims.begin(), certificate.claims.end(), claim) != certificate.claims.end();
-      (is_stated ? stated : omitted).push_back(text_of(claim));
-      (is_stated ? stated_text : omitted_text) += " " + text_of(claim);
+      if (std::find(certificate.claims.begin(), certificate.claims.end(), claim) == certificate.claims.end()) omitted.push_back(claim);
     }
   }
   if (regular) {
     certificate.claims.push_back({SpectrumClaimKind::regular, 0});
     certificate.regular = regular->evidence;
-    stated.push_back(text_of(certificate.claims.back()));
-    stated_text += " " + text_of(certificate.claims.back());
   }
   const bool written = !certificate.claims.empty();
   if (written) io::write_file(options.certificate, io::spectrum_certificate_text(certificate));
   outcome.report["certificate"] = written ? nlohmann::ordered_json(options.certificate) : nlohmann::ordered_json();
-  outcome.report["claims"] = std::move(stated);
-  outcome.report["left_out"] = std::move(omitted);
+  outcome.report["claims"] = claims_json(certificate.claims);
+  outcome.report["left_out"] = claims_json(omitted);
   if (options.certificate == "-") {
     outcome.text.clear();
     return;
   }
-  outcome.text += written ? "certificate: " + options.certificate + "\nstates" + stated_text + "\n" : "no certificate: it would state nothing\n";
-  if (!omitted_text.empty()) outcome.text += "leaves out" + omitted_text + "\n";
+  outcome.text += written ? "certificate: " + options.certificate + "\nstates" + claims_text(certificate.claims) + "\n" : "no certificate: it would state nothing\n";
+  if (!omitted.empty()) outcome.text += "leaves out" + claims_text(omitted) + "\n";
 }
 
 Outcome spectrum(const SpectrumOptions& options, const Common& common) {
