@@ -172,7 +172,8 @@ std::string claims_text(const std::vector<SpectrumClaim>& claims) {
   std::map<SpectrumClaimKind, std::vector<int>> valences;
   for (const SpectrumClaim& claim : claims) valences[claim.kind].push_back(claim.valence);
   std::string text;
-  for (const auto& [kind, list] : valences) {
+  for (auto& [kind, list] : valences) {
+    std::sort(list.begin(), list.end());
     text += " " + text_of({kind, list.front()});
     for (std::size_t i = 0, end = 0; i < list.size(); i = end) {
       for (end = i + 1; end < list.size() && list[end] == list[end - 1] + 1; ++end) {}

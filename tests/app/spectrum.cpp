@@ -136,6 +136,7 @@ TEST_CASE("spectrum: tables, exit codes, JSON, certificates and pictures", "[spe
   CHECK(run("--scheme loop --valence 3..5 --certificate c.cert --threads 1").status == 0);
   CHECK(program::run(folder, "cp c.cert d.cert").status == 0);
   CHECK(run("--scheme loop --valence 3..5 --certificate c.cert --threads 2").status == 0);
+  CHECK(run("--scheme loop --valence 3..5 --certificate c.cert").out.find("states ordering=3..5 ring=3..5 c1=3..5\n") != std::string::npos);
   CHECK(program::run(folder, "cmp c.cert d.cert && $hexact check c.cert && $check c.cert").status == 0);
   CHECK(program::run(folder, "sed -i '0,/1 1 1/s//1 1 2/' c.cert; $hexact check c.cert").status == 3);  // the digest
   CHECK(run("--scheme doo-sabin --valence 5 --picture p.svg").status == 0);
