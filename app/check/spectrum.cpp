@@ -250,7 +250,7 @@ int roots_within(std::vector<Coefficient> p, const mpq_class& r) {
 
 class ModeProof {
  public:
-  explicit ModeProof(const ListedMode& mode) : mode_(mode), listed_(mode.values), found_(listed_.size()) {}
+  explicit ModeProof(const ListedMode& mode) : mode_(mode), listed_(mode.values), found_(listed_.size()), source_(listed_.size()) {}
 
   std::string list_fault(std::size_t n) const {
     std::size_t sum = static_cast<std::size_t>(mode_.rest);
@@ -263,6 +263,7 @@ class ModeProof {
   }
   // A polynomial with rational coefficients.
   std::string block_fault(Poly p) {
+    ++blocks_;
     for (std::size_t i = 0; i < listed_.size(); ++i) {
       while (exact(i) && p.size() > 1 && value(p, listed_[i].lo) == 0) p = divide(p, {-listed_[i].lo, 1}).first, ++found_[i];
     }
@@ -272,6 +273,7 @@ class ModeProof {
   }
   // A polynomial whose coefficients are polynomials in c, which lies in a ball.
   std::string block_fault(const std::vector<Poly>& p, const Ball& c) {
+    ++blocks_;
     std::vector<Ball> q;
     for (const Poly& a : p) {
       Ball v;
@@ -290,6 +292,7 @@ class ModeProof {
   }
   std::string multiplicity_fault() const {
     for (std::size_t i = 0; i < listed_.size(); ++i) {
+      if (source_[i] < 0) return "eigenvalue " + std::to_string(i) + " is found in two factors: these may be different numbers";
       if (found_[i] != listed_[i].multiplicity) return "eigenvalue " + std::to_string(i) + " has multiplicity " + std::to_string(found_[i]);
     }
     return {};
@@ -308,6 +311,7 @@ class ModeProof {
       const ListedValue& v = listed_[i];
       if (exact(i) || sign(v.lo) * sign(v.hi) >= 0) continue;
       ++tally.changes, ++found_[i];
+      source_[i] = source_[i] == 0 || source_[i] == blocks_ ? blocks_ : -1;
       const bool out = v.lo > mode_.radius || v.hi < -mode_.radius, in = v.hi < mode_.radius && v.lo > -mode_.radius;
       if (out) ++tally.outside;
       else if (!in) tally.on_circle = true;
@@ -326,6 +330,8 @@ class ModeProof {
   const ListedMode& mode_;
   const std::vector<ListedValue>& listed_;
   std::vector<int> found_;
+  std::vector<int> source_;  // the polynomial that changes sign in an interval, from 1 on; -1: more than one
+  int blocks_ = 0;
 };
 
 // Splits off the factor that does not depend on c: the common divisor of the coefficients of all powers of c.
@@ -356,16 +362,12 @@ std::string mode_fault(const ListedRow& row, int mode, const std::vector<Complex
   mpq_class c = 0;
   const bool rational = rational_cosine(angle, row.k, c);
   for (const std::vector<Poly>& block : all.blocks()) {
-    const bool constant = std::all_of(block.begin(), block.end(), [](const Poly& p) { return p.size() <= 1; });
-    std::string fault;
-    if (rational || constant) {
+    const auto [common, rest] = split(block);
+    std::string fault = proof.block_fault(common);
+    if (fault.empty() && rest.size() > 1) {
       Poly p;
-      for (const Poly& a : block) p.push_back(value(a, c));
-      fault = proof.block_fault(p);
-    } else {
-      const auto [common, rest] = split(block);
-      fault = proof.block_fault(common);
-      if (fault.empty() && rest.size() > 1) fault = proof.block_fault(rest, turns[static_cast<std::size_t>(angle)].x);
+      for (const Poly& a : rest) p.push_back(value(a, c));
+      fault = rational ? proof.block_fault(p) : proof.block_fault(rest, turns[static_cast<std::size_t>(angle)].x);
     }
     if (!fault.empty()) return fault;
   }

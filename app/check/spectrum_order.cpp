@@ -86,6 +86,15 @@ struct RowFaults {
   std::string ordering, ordering_fails, ring, ring_fails;
 };
 
+// Whether constant data stays constant; schemes see to that.
+bool sums_to_one(Scheme scheme, const ListedRow& row) {
+  if (!row.mask) return true;
+  const std::vector<mpq_class>& w = row.mask->weights;
+  mpq_class sum = w[0];
+  for (std::size_t i = 1; i < w.size(); ++i) sum += scheme == Scheme::doo_sabin ? w[i] : mpq_class(row.k * w[i]);
+  return sum == 1;
+}
+
 RowFaults faults_of(Scheme scheme, const ListedRow& row, bool with_ring) {
   RowFaults out;
   out.ordering = out.ordering_fails = spectrum_fault(scheme, row);
@@ -99,6 +108,10 @@ RowFaults faults_of(Scheme scheme, const ListedRow& row, bool with_ring) {
   const std::string mode = "the second eigenvalue is of mode " + std::to_string(m);
   if (scheme == Scheme::blocks) {
     out.ring = out.ring_fails = "the rules elsewhere are not given";
+    return out;
+  }
+  if (!sums_to_one(scheme, row)) {
+    out.ring = out.ring_fails = "the weights of the mask do not add up to 1";
     return out;
   }
   out.ring_fails = m > 1 && 2 * m < row.k ? "" : mode;
@@ -123,7 +136,8 @@ std::vector<std::pair<std::string, std::string>> spectrum_faults(const SpectrumF
   std::vector<std::pair<std::string, std::string>> out;
   for (const SpectrumClaim& c : file.claims) {
     if (c.statement == Statement::regular) {
-      out.emplace_back(c.text, regular_fault(file.scheme, *file.regular));
+      const bool masks = std::any_of(file.rows.begin(), file.rows.end(), [](const ListedRow& row) { return row.mask.has_value(); });
+      out.emplace_back(c.text, masks ? "masks say nothing of regular regions" : regular_fault(file.scheme, *file.regular));
       continue;
     }
     const RowFaults& f = rows[c.row];

@@ -287,6 +287,8 @@ std::string spline_fault(const std::vector<Piece>& pieces, const mpq_class& jaco
 std::string ring_fault(Scheme scheme, const ListedRow& row, const ListedValue& eigenvalue) {
   const RingBounds& bounds = *row.ring;
   if (sgn(bounds.jacobian) <= 0 || sgn(bounds.half_plane) <= 0) return "a bound is not positive";
+  const mpq_class unit(1000000);
+  if (mpq_class(unit * bounds.jacobian).get_den() != 1 || mpq_class(unit * bounds.half_plane).get_den() != 1) return "a bound is no multiple of 10^-6";
   if (bounds.jacobian > 1 || bounds.half_plane > 1) return "a bound is greater than 1";
   const std::vector<ComplexBall> all = turns(row);
   const ModeRule rule(scheme, row, 1);

@@ -35,7 +35,7 @@ struct Changes {
 
 class ModeCheck {
  public:
-  ModeCheck(const ModeSpectrum& mode, int k) : listed_(mode.isolated), mode_(mode), k_(k), found_(listed_.size()) {}
+  ModeCheck(const ModeSpectrum& mode, int k) : listed_(mode.isolated), mode_(mode), k_(k), found_(listed_.size()), sources_(listed_.size()) {}
 
   std::string fault(const std::vector<CharacteristicFactor>& factors, std::size_t n) {
     if (std::string f = list_fault(n); !f.empty()) return f;
@@ -46,6 +46,7 @@ class ModeCheck {
       if (!f.empty()) return f;
     }
     for (std::size_t i = 0; i < listed_.size(); ++i) {
+      if (sources_[i] > 1) return name(i) + " is found in more than one factor: these may be different numbers";
       if (found_[i] != listed_[i].multiplicity) return name(i) + " is found with multiplicity " + std::to_string(found_[i]);
     }
     return {};
@@ -108,6 +109,7 @@ class ModeCheck {
       const RationalInterval& e = listed_[i].enclosure;
       if (is_exact(listed_[i]) || sign(e.lo) * sign(e.hi) >= 0) continue;
       found_[i] += multiplicity;
+      ++sources_[i];
       ++out.all;
       const Rational& r = mode_.remaining_bound;
       if (e.lo > r || e.hi < -r) ++out.outside;
@@ -133,6 +135,7 @@ class ModeCheck {
   const ModeSpectrum& mode_;
   int k_;
   std::vector<int> found_;
+  std::vector<int> sources_;  ///< square-free factors that change sign in the interval
 };
 
 bool meet(const RationalInterval& a, const RationalInterval& b) { return a.lo <= b.hi && b.lo <= a.hi; }

@@ -104,6 +104,15 @@ Decision decide_pair(const std::vector<Candidate>& all) {
   return {};
 }
 
+/// The third eigenvalue in modulus, where it is certain which one that is. `all` begins with the second.
+std::optional<Eigenvalue> greatest_after_pair(const std::vector<Candidate>& all) {
+  if (all.size() < 2 || !all[1].isolated) return std::nullopt;
+  for (std::size_t i = 2; i < all.size(); ++i) {
+    if (all[i].high > all[1].low) return std::nullopt;
+  }
+  return all[1].value;
+}
+
 Verdict both(Verdict a, Verdict b) {
   if (a == Verdict::refuted || b == Verdict::refuted) return Verdict::refuted;
   return a == Verdict::proved && b == Verdict::proved ? Verdict::proved : Verdict::undecided;
@@ -133,7 +142,7 @@ void decide_ordering(SpectrumRow& row) {
     decision = decide_pair(all);
     if (decision.verdict == Verdict::proved) {
       row.subdominant = all[0].value;
-      if (all.size() > 1 && all[1].isolated) row.next = all[1].value;
+      row.next = greatest_after_pair(all);
     }
   }
   row.ordering = decision.verdict;
@@ -147,13 +156,15 @@ SpectrumRow spectrum_row(const SpectrumSubject& subject) {
   decide_ordering(row);
   if (row.ordering != Verdict::proved) {
     row.ring.reason = "there is no characteristic map without the ordering of the eigenvalues";
+  } else if (!subject.regular) {
+    row.ring.reason = "the rules away from the centre are not given";
+  } else if (!reproduces_constants(subject.matrix)) {
+    row.ring.reason = "the weights do not add up to 1: constant data does not stay constant";
   } else if (row.subdominant->mode > 1 && 2 * row.subdominant->mode < row.valence) {
     row.ring.verdict = Verdict::refuted;
     row.ring.reason = "the second eigenvalue belongs to mode " + std::to_string(row.subdominant->mode) + ": the ring winds so many times";
   } else if (row.subdominant->mode != 1) {
     row.ring.reason = "the second eigenvalue belongs to no pair of modes";
-  } else if (!subject.regular) {
-    row.ring.reason = "the rules away from the centre are not given";
   } else {
     row.ring = prove_ring(*subject.regular, subject.matrix, row.subdominant->enclosure);
   }

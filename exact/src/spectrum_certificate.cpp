@@ -43,6 +43,9 @@ std::string ring_fault(SpectrumScheme scheme, const SubdivisionMatrix& matrix, c
   if (!row.ring) return "there is no proof of the ring";
   const SpectrumCertificate::Ring& ring = *row.ring;
   if (ring.jacobian.sign() <= 0 || ring.half_plane.sign() <= 0) return "a bound is not positive";
+  const Rational unit(1000000);  // what proofs round to: finer bounds would ask for the same arithmetic
+  const Integer one(1);
+  if ((unit * ring.jacobian).denominator() != one || (unit * ring.half_plane).denominator() != one) return "a bound is no multiple of 10^-6";
   if (is_bspline_scheme(scheme) && ring.level != 0) return "rings of B-splines have level 0";
   const RingProof proof = prove_ring(scheme, matrix, second.enclosure, ring.level);
   if (proof.verdict != Verdict::proved) return proof.reason;
@@ -71,6 +74,10 @@ void decide(RowFaults& out, const Scheme& scheme, const Row& row, bool with_ring
   if (!out.ordering.empty()) return;
   if (!scheme) {
     out.ring = out.ring_fails = "the rules away from the centre are not given";
+    return;
+  }
+  if (!reproduces_constants(subject.matrix)) {
+    out.ring = out.ring_fails = "the weights do not add up to 1: constant data does not stay constant";
     return;
   }
   const Eigenvalue& second = *decided.subdominant;
@@ -191,6 +198,8 @@ namespace {
 std::string claim_fault(const SpectrumCertificate& certificate, const std::vector<RowFaults>& faults, const SpectrumClaim& claim) {
   if (claim.kind == SpectrumClaimKind::regular) {
     if (!certificate.regular || !certificate.scheme) return "there is no evidence";
+    const bool masks = std::any_of(certificate.rows.begin(), certificate.rows.end(), [](const Row& row) { return row.mask.has_value(); });
+    if (masks) return "masks say nothing of regular regions";
     return regular_fault(*certificate.scheme, *certificate.regular);
   }
   for (std::size_t i = 0; i < faults.size(); ++i) {

@@ -239,6 +239,19 @@ SubdivisionMatrix subdivision_matrix(SpectrumScheme scheme, int valence, int rea
   return m;
 }
 
+bool reproduces_constants(const SubdivisionMatrix& matrix) {
+  std::vector<Rational> sums(matrix.size());
+  for (const SectorWeight& w : matrix.local) sums[w.row] += w.weight;
+  for (const SectorWeight& w : matrix.uniform) sums[w.row] += Rational(matrix.valence) * w.weight;
+  // Harmonic weights add up to 0 over the sectors.
+  for (std::size_t r = 0; matrix.has_centre && r < sums.size(); ++r) sums[r] += matrix.centre_to[r];
+  if (std::any_of(sums.begin(), sums.end(), [](const Rational& x) { return x != Rational(1); })) return false;
+  if (!matrix.has_centre) return true;
+  Polynomial centre = matrix.centre;
+  for (const CosinePolynomial& p : matrix.centre_from) centre = sum(centre, scaled(p, Rational(matrix.valence)));
+  return trimmed(difference(centre, {Rational(1)})).empty();
+}
+
 std::vector<CosinePolynomial> sector_block(const SubdivisionMatrix& matrix, int d) {
   const std::size_t n = matrix.size();
   const int k = matrix.valence;

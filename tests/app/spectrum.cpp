@@ -88,7 +88,7 @@ TEST_CASE("what a forger would try", "[spectrum][certificate]") {
   const std::size_t ring = text.find("ring 3");
   const std::string line = text.substr(ring, text.find('\n', ring) - ring);
   CHECK(refused(replaced(text, line, "ring 3 4/5 1/3")) == 1);       // more than is true
-  CHECK(refused(replaced(text, line, "ring 3 3/4 1/3")) == 0);
+  CHECK(refused(replaced(text, line, "ring 3 3/4 1/4")) == 0);
   CHECK(refused(replaced(text, line, "ring 3 3/4 2/5")) == 1);
   CHECK(refused(replaced(text, line, "ring 3 0 1/3")) == 1);
   CHECK(refused(replaced(text, line, "ring 3 -1 1/3")) == 1);

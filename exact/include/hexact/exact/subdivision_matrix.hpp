@@ -61,6 +61,9 @@ struct SubdivisionMatrix {
 /// The smallest reach that determines the ring of the characteristic map: 3, and 4 for midedge6.
 [[nodiscard]] int ring_reach(SpectrumScheme scheme) noexcept;
 
+/// Whether the weights of every row add up to 1, so that constant data stays constant. The program's own schemes do.
+[[nodiscard]] bool reproduces_constants(const SubdivisionMatrix& matrix);
+
 /// The block D_d of the block-circulant part: the entry at row · size() + column is the weight of the coarse vertex
 /// `column` of sector d in the fine vertex `row` of sector 0, a polynomial in cos(2π/k), reduced by nothing.
 [[nodiscard]] std::vector<CosinePolynomial> sector_block(const SubdivisionMatrix& matrix, int d);
