@@ -84,16 +84,17 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     return;
   }
   if (path.empty()) fail(path, "cannot be written", ENOENT);
-  target_ = follow_links(path);
   struct stat status {};
-  const bool exists = stat(target_.c_str(), &status) == 0;
+  const bool exists = stat(path.c_str(), &status) == 0;
   if (!exists && errno != ENOENT) fail(path_, "cannot be written", errno);
   if (exists && S_ISDIR(status.st_mode)) fail(path_, "cannot be written", EISDIR);
   if (exists && !S_ISREG(status.st_mode)) {
-    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+    // By the given name: the link of a pipe in /proc/self/fd names no file ("pipe:[1234]").
+    descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(path_, "cannot be opened for writing", errno);
     return;
   }
+  target_ = follow_links(path);
   if (exists && access(target_.c_str(), W_OK) != 0) fail(path_, "cannot be written", errno);
   descriptor_ = create_beside(target_, temporary_);
   if (descriptor_ < 0) {

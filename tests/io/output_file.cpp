@@ -5,6 +5,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -79,6 +80,24 @@ TEST_CASE("a symlink stays and its target is replaced", "[io]") {
   CHECK(content(scratch.path / "target") == "new");
   fs::create_symlink("loop", scratch.path / "loop");
   CHECK_THROWS_AS(io::write_file(scratch.path / "loop", "new"), FileError);
+}
+
+TEST_CASE("pipes are written through, by whatever name they have", "[io]") {
+  const Scratch scratch;
+  int ends[2];
+  REQUIRE(pipe(ends) == 0);
+  const std::string number = std::to_string(ends[1]);
+  fs::create_symlink("/proc/self/fd/" + number, scratch.path / "link");
+  for (const std::string& name : {"/proc/self/fd/" + number, "/dev/fd/" + number, (scratch.path / "link").string()}) {
+    io::write_file(name, "through");
+    char bytes[16];
+    const ssize_t length = read(ends[0], bytes, sizeof(bytes));
+    CHECK(std::string(bytes, static_cast<std::size_t>(std::max<ssize_t>(length, 0))) == "through");
+  }
+  close(ends[0]);
+  CHECK_THROWS_AS(io::write_file("/dev/fd/" + number, "nobody reads"), FileError);
+  close(ends[1]);
+  CHECK(scratch.entries() == 1);
 }
 
 TEST_CASE("a full disk, a full device and impossible places are file errors", "[io]") {
