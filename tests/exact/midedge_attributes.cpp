@@ -6,6 +6,10 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 using namespace hexact;
 using namespace hexact::midedge_samples;
 
@@ -44,6 +48,19 @@ Carrying grid_with_seam(const Level& level) {
   for (std::uint32_t h = 0; h < level.map.half_edge_count(); ++h) {
     c.attributes.texture.of_corner.push_back(level.map.origin(h) + (level.map.facet(h) % 6 >= 3 ? n : 0));
   }
+  return c;
+}
+
+/// Every facet has the unit square as a piece of its own, `apart` times its number further along x.
+Carrying squares(const Level& level, long apart) {
+  Carrying c{level, {}};
+  for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
+    const Rational x(apart * static_cast<long>(f));
+    for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}}) c.attributes.texture.values.push_back({x + p.x, p.y, p.z});
+  }
+  c.attributes.texture.of_corner.resize(level.map.half_edge_count());
+  std::iota(c.attributes.texture.of_corner.begin(), c.attributes.texture.of_corner.end(), 0u);
+  c.attributes.texture = welded(c.attributes.texture);
   return c;
 }
 
@@ -116,6 +133,48 @@ TEST_CASE("along a seam each side is refined as if it ended there", "[midedge]")
       CHECK(c.attributes.texture.of_corner.size() == c.level.map.half_edge_count());
     }
   }
+}
+
+TEST_CASE("pieces of a texture may lie on top of each other", "[midedge]") {
+  constexpr long kApart = 1000;
+  std::vector<std::vector<int>> sides;
+  const Level cube = golden_mesh("cube");
+  for (std::uint32_t f = 0; f < 5; ++f) {
+    sides.emplace_back();
+    for (const std::uint32_t v : cube.map.loop(f)) sides.back().push_back(static_cast<int>(v));
+  }
+  for (const Level& base : {cube, level_of({cube.points.begin(), cube.points.end()}, sides), grid(3, 2, wave)}) {
+    for (const MidedgeRule rule : kRules) {
+      for (const MidedgeBoundary boundary : {MidedgeBoundary::dual, MidedgeBoundary::close, MidedgeBoundary::drop}) {
+        Carrying same = squares(base, 0), apart = squares(base, kApart);
+        REQUIRE(same.attributes.texture.of_corner.size() == 4 * base.map.facet_count());
+        for (int n = 0; n < 2; ++n) {
+          same.step(rule, boundary);
+          apart.step(rule, boundary);
+          // Each facet lies in one piece, and its place there does not depend on where the piece is.
+          std::size_t wrong = 0;
+          for (std::uint32_t f = 0; f < same.level.map.facet_count(); ++f) {
+            const std::uint32_t start = same.level.map.facet_start(f), size = same.level.map.facet_size(f);
+            const Rational shift = texture_at(apart, start).x - texture_at(same, start).x;
+            for (std::uint32_t h = start; h < start + size; ++h) {
+              const Point p = texture_at(same, h);
+              wrong += texture_at(apart, h) == Point{p.x + shift, p.y, p.z} ? 0 : 1;
+            }
+          }
+          CHECK(wrong == 0);
+        }
+      }
+    }
+  }
+  // The facet at vertex 0 lies in the corner of the first square; its far corner is the vertex itself.
+  Carrying c = squares(cube, 0);
+  c.step(MidedgeRule::simple, MidedgeBoundary::close);
+  std::vector<std::pair<double, double>> at_vertex;
+  for (std::uint32_t h = c.level.map.facet_start(6); h < c.level.map.facet_start(7); ++h) {
+    at_vertex.emplace_back(texture_at(c, h).x.to_double(), texture_at(c, h).y.to_double());
+  }
+  std::sort(at_vertex.begin(), at_vertex.end());
+  CHECK(at_vertex == std::vector<std::pair<double, double>>{{0, 0}, {0, 0.5}, {0.5, 0}});
 }
 
 TEST_CASE("facets without texture coordinates pass none on", "[midedge]") {
@@ -262,6 +321,61 @@ TEST_CASE("keeping the size: open components keep their area and the mean of the
       }
     }
   }
+}
+
+namespace {
+
+template <class S>
+S power_of_two_times(const Rational& x, int exponent);
+template <>
+Rational power_of_two_times<Rational>(const Rational& x, int exponent) { return x.scaled(exponent); }
+template <>
+double power_of_two_times<double>(const Rational& x, int exponent) { return std::ldexp(x.to_double(), exponent); }
+
+/// The factors after some steps of the mesh, 2^exponent times as large.
+template <class S>
+std::vector<double> factors_of(const Level& base, int exponent, unsigned steps, MidedgeRule rule) {
+  MidedgeLevel<S> level{base.map, {}};
+  for (const Point& p : base.points) {
+    level.points.push_back({power_of_two_times<S>(p.x, exponent), power_of_two_times<S>(p.y, exponent), power_of_two_times<S>(p.z, exponent)});
+  }
+  SizeKeeper<S> keeper(level);
+  for (unsigned n = 0; n < steps; ++n) {
+    MidedgeLevel<S> next = midedge_step(level, rule, MidedgeBoundary::close);
+    keeper.step(level.map, next.map);
+    level = std::move(next);
+  }
+  keeper.fit(level);
+  return {keeper.factors().begin(), keeper.factors().end()};
+}
+
+}  // namespace
+
+TEST_CASE("keeping the size: factors do not depend on the unit of length", "[midedge]") {
+  const Level level = beside(golden_mesh("cube"), grid(4, 3, wave));
+  for (const MidedgeRule rule : kRules) {
+    const std::vector<double> expected = factors_of<Rational>(level, 0, 3, rule);
+    const auto check = [&](const std::vector<double>& factors) {
+      REQUIRE(factors.size() == expected.size());
+      for (std::size_t c = 0; c < factors.size(); ++c) CHECK(factors[c] == Approx(expected[c]).epsilon(1e-12));
+    };
+    for (const int exponent : {-1000, -560, -340, 0, 343, 520, 1000}) check(factors_of<double>(level, exponent, 3, rule));
+    for (const int exponent : {-4000, 4000}) check(factors_of<Rational>(level, exponent, 3, rule));
+  }
+  // A square has half its area after each step, for ever.
+  const auto flat = [](int i, int j) { return Point{2 * i - 1, 2 * j - 1, 0}; };
+  CHECK(factors_of<double>(grid(1, 1, flat), 0, 1000, MidedgeRule::simple) == std::vector<double>{std::ldexp(1.0, 500)});
+  const auto beside_origin = [](int i, int j) { return Point{i, j, 0}; };
+  CHECK(factors_of<Rational>(grid(1, 1, beside_origin), 0, 1000, MidedgeRule::simple) == std::vector<double>{std::ldexp(1.0, 500)});
+  CHECK_THROWS_AS(factors_of<Rational>(grid(1, 1, flat), 0, 2100, MidedgeRule::simple), NumericalFailure);
+}
+
+TEST_CASE("keeping the size: sums beyond the largest double do not matter for the centre", "[midedge]") {
+  // 400 corners near 2^1018 add up to more than any double.
+  const Level base = grid(10, 10, [](int i, int j) { return Point{1000 + i, 1000 + j, 0}; });
+  const std::vector<double> expected = factors_of<double>(base, 0, 2, MidedgeRule::simple);
+  const std::vector<double> large = factors_of<double>(base, 1008, 2, MidedgeRule::simple);
+  CHECK(large.front() == Approx(expected.front()).epsilon(1e-12));
 }
 
 TEST_CASE("meshes without a size to keep are refused", "[midedge]") {

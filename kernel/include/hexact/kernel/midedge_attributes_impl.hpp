@@ -51,6 +51,7 @@ class TextureStep {
 
   CornerValues<S> run() {
     make_sides();
+    make_pieces();
     const bool doubled = after_.level() == before_.level() + 2;
     if (doubled) make_corners();
     const std::vector<std::uint32_t>& kept = doubled ? corner_ : side_;
@@ -110,6 +111,26 @@ class TextureStep {
     }
   }
 
+  /// Which corners lie in the piece of the leading facet at their vertex: those reached over smooth edges. Equal values
+  /// are not enough: maps of different pieces may lie on top of each other.
+  void make_pieces() {
+    in_piece_.assign(before_.half_edge_count(), 0);
+    for (const std::uint32_t lead : first_.of_vertex) {
+      std::uint32_t h = lead;
+      in_piece_[h] = 1;
+      while (smooth(before_.previous(h))) {
+        h = before_.twin(before_.previous(h));
+        if (h == lead) break;
+        in_piece_[h] = 1;
+      }
+      for (h = lead; smooth(h);) {
+        h = before_.next(before_.twin(h));
+        if (in_piece_[h] != 0) break;
+        in_piece_[h] = 1;
+      }
+    }
+  }
+
   /// All facets around the inner vertex at which h begins go on smoothly.
   [[nodiscard]] bool smooth_vertex(std::uint32_t first) const {
     for (std::uint32_t h = first;;) {
@@ -163,13 +184,13 @@ class TextureStep {
     for (std::uint32_t x = start; x < start + after_.facet_size(f); ++x) {
       std::uint32_t& out = result_.of_corner[x];
       if (after_.twin(x) == kNoTwin) {  // the last boundary edge, which ends at the vertex
-        out = at(last) == at(lead) ? side_[before_.previous(last)] : kNothing;
+        out = in_piece_[last] != 0 ? side_[before_.previous(last)] : kNothing;
       } else {
         const std::uint32_t h = before_.next(after_.twin(x));  // leaves the vertex along the edge
         const std::uint32_t t = before_.twin(h);
-        if (at(h) == at(lead)) {
+        if (in_piece_[h] != 0) {
           out = side_[h];
-        } else if (t != kNoTwin && at(before_.next(t)) == at(lead)) {
+        } else if (t != kNoTwin && in_piece_[before_.next(t)] != 0) {
           out = side_[t];
         }
         last = h;
@@ -185,7 +206,7 @@ class TextureStep {
     for (std::uint32_t x = start; x < start + after_.facet_size(f); ++x) {
       const std::uint32_t h = after_.origin(x);
       std::uint32_t& out = result_.of_corner[x];
-      if (at(h) == at(lead)) {
+      if (in_piece_[h] != 0) {
         out = corner_[h];
       } else {
         out = vertex = vertex == kNothing ? add(old_.values[at(lead)]) : vertex;
@@ -228,6 +249,7 @@ class TextureStep {
   MidedgeRule rule_;
   FirstHalfEdges first_;
   std::vector<std::uint32_t> side_, corner_;
+  std::vector<char> in_piece_;
   CornerValues<S> result_;
 };
 

@@ -16,6 +16,13 @@ enum class SizeMeasure : std::uint8_t {
   area,    ///< of one with a boundary
 };
 
+/// A volume or an area: value · 2^(3 · exponent) or value · 2^(2 · exponent). Lengths are measured in units of 2^exponent,
+/// about the extent of the component, so that no product of them overflows or vanishes.
+struct ComponentSize {
+  double value = 0;
+  int exponent = 0;
+};
+
 /// Scales levels so that they keep the size of the input, component by component.
 ///
 /// Midedge meshes shrink. A component of level n is scaled by one factor about one point:
@@ -30,12 +37,13 @@ template <class S>
 class SizeKeeper {
  public:
   /// Throws InvalidInput: NoVolume, NoArea (first facet of a closed component that does not enclose a positive volume, of an
-  /// open one without area).
+  /// open one without area); NumericalFailure where coordinates are not finite.
   explicit SizeKeeper(const MidedgeLevel<S>& input);
 
   /// Follows one step from level `before` to level `after`.
   void step(const MidedgeMap& before, const MidedgeMap& after);
-  /// Takes the factors of the level that was reached. Throws InvalidInput (NoVolume, NoArea).
+  /// Takes the factors of the level that was reached. Throws InvalidInput (NoVolume, NoArea), NumericalFailure (also
+  /// where a factor is too large or too small for a double).
   void fit(const MidedgeLevel<S>& level);
   /// The factor of each component.
   [[nodiscard]] std::span<const double> factors() const noexcept { return factors_; }
@@ -50,12 +58,16 @@ class SizeKeeper {
 
  private:
   void centre_open_components(const MidedgeLevel<S>& level);
-  [[nodiscard]] std::vector<double> sizes(const MidedgeLevel<S>& level) const;
+  template <class Visit>
+  void centre(SizeMeasure measure, const Visit& visit);
+  [[nodiscard]] std::vector<int> exponents(const MidedgeLevel<S>& level) const;
+  [[nodiscard]] std::vector<ComponentSize> sizes(const MidedgeLevel<S>& level) const;
 
   FacetNames component_;
   std::vector<SizeMeasure> measures_;
   std::vector<Point3<S>> centres_;
-  std::vector<double> sizes_, factors_;
+  std::vector<ComponentSize> sizes_;
+  std::vector<double> factors_;
 };
 
 extern template class SizeKeeper<double>;

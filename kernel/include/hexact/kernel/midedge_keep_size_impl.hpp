@@ -6,7 +6,10 @@
 #include "hexact/kernel/midedge_attributes_impl.hpp"
 #include "hexact/kernel/midedge_keep_size.hpp"
 
+#include <algorithm>
+#include <climits>
 #include <cmath>
+#include <string>
 
 namespace hexact::detail {
 
@@ -64,8 +67,20 @@ inline double fanned_area(const FacetPolygon& polygon) {
   return area / 2;
 }
 
-inline double as_double(double x) { return x; }
+constexpr int kLeastExponent = INT_MIN;
+
+/// The least e with |x| < 2^e, or nearly so; kLeastExponent for 0.
+inline int binary_exponent(double x) { return x == 0 ? kLeastExponent : std::isfinite(x) ? std::ilogb(x) + 1 : 0; }
+/// x / 2^exponent.
+inline double as_double(double x, int exponent) { return std::ldexp(x, -exponent); }
+inline double times_power_of_two(double x, int exponent) { return std::ldexp(x, exponent); }
+inline bool is_finite(double x) { return std::isfinite(x); }
 inline double as_number(double x, const double*) { return x; }
+
+template <class S>
+Point3<S> times_power_of_two(const Point3<S>& p, int exponent) {
+  return {times_power_of_two(p.x, exponent), times_power_of_two(p.y, exponent), times_power_of_two(p.z, exponent)};
+}
 
 }  // namespace hexact::detail
 
@@ -78,36 +93,48 @@ SizeKeeper<S>::SizeKeeper(const MidedgeLevel<S>& input) {
   component_.of_facet = detail::component_of_facets(map, count);
   measures_.assign(count, SizeMeasure::volume);
   centres_.resize(count);
-  std::vector<int> corners(count, 0);
   for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) {
-    const std::uint32_t c = component(map.facet(h));
-    if (map.twin(h) == kNoTwin) measures_[c] = SizeMeasure::area;
-    centres_[c] = detail::plus(centres_[c], input.points[map.origin(h)]);
-    ++corners[c];
+    if (map.twin(h) == kNoTwin) measures_[component(map.facet(h))] = SizeMeasure::area;
   }
-  for (std::uint32_t c = 0; c < count; ++c) centres_[c] = detail::times(S(1) / S(corners[c]), centres_[c]);
+  centre(SizeMeasure::volume, [&](const auto& add) {
+    for (std::uint32_t h = 0; h < map.half_edge_count(); ++h) add(component(map.facet(h)), input.points[map.origin(h)]);
+  });
   centre_open_components(input);
   sizes_ = sizes(input);
   factors_.assign(count, 1);
+}
+
+/// Sets the centres of the components with this measure to the means of the points that `visit` adds. Sums that overflow
+/// are taken again 2^32 times smaller.
+template <class S>
+template <class Visit>
+void SizeKeeper<S>::centre(SizeMeasure measure, const Visit& visit) {
+  for (const int shift : {0, 32}) {
+    std::vector<Point3<S>> sum(centres_.size());
+    std::vector<int> count(centres_.size(), 0);
+    visit([&](std::uint32_t c, const Point3<S>& p) {
+      if (measures_[c] != measure) return;
+      sum[c] = detail::plus(sum[c], shift == 0 ? p : detail::times_power_of_two(p, -shift));
+      ++count[c];
+    });
+    bool finite = true;
+    for (std::size_t c = 0; c < centres_.size(); ++c) {
+      if (measures_[c] != measure) continue;
+      centres_[c] = detail::times(S(1) / S(count[c]), sum[c]);
+      if (shift != 0) centres_[c] = detail::times_power_of_two(centres_[c], shift);
+      finite = finite && detail::is_finite(centres_[c].x) && detail::is_finite(centres_[c].y) && detail::is_finite(centres_[c].z);
+    }
+    if (finite) return;
+  }
 }
 
 /// Each vertex once: by the first of its half-edges.
 template <class S>
 void SizeKeeper<S>::centre_open_components(const MidedgeLevel<S>& level) {
   const std::vector<std::uint32_t> first = detail::first_half_edges(level.map).of_vertex;
-  std::vector<int> count(centres_.size(), 0);
-  for (std::size_t c = 0; c < centres_.size(); ++c) {
-    if (measures_[c] == SizeMeasure::area) centres_[c] = {};
-  }
-  for (std::size_t v = 0; v < first.size(); ++v) {
-    const std::uint32_t c = component(level.map.facet(first[v]));
-    if (measures_[c] != SizeMeasure::area) continue;
-    centres_[c] = detail::plus(centres_[c], level.points[v]);
-    ++count[c];
-  }
-  for (std::size_t c = 0; c < centres_.size(); ++c) {
-    if (measures_[c] == SizeMeasure::area) centres_[c] = detail::times(S(1) / S(count[c]), centres_[c]);
-  }
+  centre(SizeMeasure::area, [&](const auto& add) {
+    for (std::size_t v = 0; v < first.size(); ++v) add(component(level.map.facet(first[v])), level.points[v]);
+  });
 }
 
 template <class S>
@@ -115,37 +142,59 @@ void SizeKeeper<S>::step(const MidedgeMap& before, const MidedgeMap& after) {
   component_ = detail::refined_names(before, after, detail::first_half_edges(before), component_);
 }
 
+/// For each component the power of two that its coordinates relative to its centre stay below.
+template <class S>
+std::vector<int> SizeKeeper<S>::exponents(const MidedgeLevel<S>& level) const {
+  const std::vector<std::uint32_t> first = detail::first_half_edges(level.map).of_vertex;
+  std::vector<int> result(centres_.size(), detail::kLeastExponent);
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const std::uint32_t c = component(level.map.facet(first[v]));
+    const Point3<S> p = detail::minus(level.points[v], centres_[c]);
+    result[c] = std::max({result[c], detail::binary_exponent(p.x), detail::binary_exponent(p.y), detail::binary_exponent(p.z)});
+  }
+  std::replace(result.begin(), result.end(), detail::kLeastExponent, 0);
+  return result;
+}
+
 /// Relative to the centre of each component, so that a distant one loses no digits.
 template <class S>
-std::vector<double> SizeKeeper<S>::sizes(const MidedgeLevel<S>& level) const {
-  std::vector<double> sum(centres_.size(), 0);
+std::vector<ComponentSize> SizeKeeper<S>::sizes(const MidedgeLevel<S>& level) const {
+  const std::vector<int> exponent = exponents(level);
+  std::vector<ComponentSize> result(centres_.size());
+  for (std::size_t c = 0; c < result.size(); ++c) result[c].exponent = exponent[c];
   std::vector<Point3<double>> polygon;
   for (std::uint32_t f = 0; f < level.map.facet_count(); ++f) {
     const std::uint32_t c = component(f);
     polygon.clear();
     for (const std::uint32_t v : level.map.loop(f)) {
       const Point3<S> p = detail::minus(level.points[v], centres_[c]);
-      polygon.push_back({detail::as_double(p.x), detail::as_double(p.y), detail::as_double(p.z)});
+      polygon.push_back({detail::as_double(p.x, exponent[c]), detail::as_double(p.y, exponent[c]), detail::as_double(p.z, exponent[c])});
     }
-    sum[c] += measures_[c] == SizeMeasure::volume ? detail::fanned_volume(polygon) : detail::fanned_area(polygon);
+    result[c].value += measures_[c] == SizeMeasure::volume ? detail::fanned_volume(polygon) : detail::fanned_area(polygon);
   }
-  for (std::size_t c = 0; c < sum.size(); ++c) {
-    if (sum[c] > 0 && std::isfinite(sum[c])) continue;
+  for (std::size_t c = 0; c < result.size(); ++c) {
+    if (result[c].value > 0 && std::isfinite(result[c].value)) continue;
     std::uint32_t f = 0;
     while (component(f) != c) ++f;
+    if (!std::isfinite(result[c].value)) {
+      throw NumericalFailure("the size of the component of " + facet_name(f) + " cannot be kept: its coordinates are too large for doubles");
+    }
     if (measures_[c] == SizeMeasure::area) throw InvalidInput("NoArea", "its component has no area that could be kept", facet_name(f));
     throw InvalidInput("NoVolume", "its component encloses no positive volume that could be kept", facet_name(f));
   }
-  return sum;
+  return result;
 }
 
 template <class S>
 void SizeKeeper<S>::fit(const MidedgeLevel<S>& level) {
   centre_open_components(level);
-  const std::vector<double> now = sizes(level);
+  const std::vector<ComponentSize> now = sizes(level);
   for (std::size_t c = 0; c < now.size(); ++c) {
-    const double ratio = sizes_[c] / now[c];
-    factors_[c] = measures_[c] == SizeMeasure::volume ? std::cbrt(ratio) : std::sqrt(ratio);
+    const double ratio = sizes_[c].value / now[c].value;
+    const double root = measures_[c] == SizeMeasure::volume ? std::cbrt(ratio) : std::sqrt(ratio);
+    factors_[c] = std::ldexp(root, sizes_[c].exponent - now[c].exponent);
+    if (std::isnormal(factors_[c])) continue;
+    throw NumericalFailure("the factor that keeps the size of component " + std::to_string(c) + " is too large or too small for a double");
   }
 }
 
