@@ -50,7 +50,7 @@ Stage stage_of(const MidedgeMap& map, std::uint32_t f, const MidedgeLimitPlan& p
   if (!touches_boundary(pattern)) return simple || !midedge_net(map, f).empty() ? Stage::inner : Stage::waiting;
   if (plan.boundary == MidedgeBoundary::drop) return simple ? Stage::mean : Stage::never;
   if (stands_alone(pattern)) return Stage::mean;
-  if (plan.boundary == MidedgeBoundary::close) return longest_run(pattern) > kLongestRun ? Stage::endless : Stage::waiting;
+  if (plan.boundary == MidedgeBoundary::close) return longest_run(pattern) <= kLongestRun ? Stage::waiting : simple ? Stage::mean : Stage::endless;
   if (simple) return Stage::mean;
   return midedge_boundary_net(map, f) ? Stage::at_boundary : Stage::waiting;
 }
@@ -110,6 +110,17 @@ class LimitSearch {
   std::vector<FacetLimit> results_;
 };
 
+/// Names the smallest facet, whichever thread met one first.
+void refuse_endless(std::span<const std::uint32_t> facets, std::span<const Stage> stage) {
+  std::optional<std::uint32_t> first;
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    if (stage[i] == Stage::endless) first = std::min(first.value_or(facets[i]), facets[i]);
+  }
+  if (!first) return;
+  throw ResourceLimit("limit points need more than " + std::to_string(kLongestRun) + " further steps: " + facet_name(*first) +
+                      " has as many boundary vertices with two edges in a row");
+}
+
 /// Takes the limits that the level gives; returns what has to wait.
 Pending LimitSearch::settle(const Level& level, const Pending& pending) {
   const std::vector<std::uint32_t>& facets = pending.facets;
@@ -117,6 +128,7 @@ Pending LimitSearch::settle(const Level& level, const Pending& pending) {
   for_ranges(facets.size(), kGrain, [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i != end; ++i) stage[i] = stage_of(level.map, facets[i], plan_);
   });
+  refuse_endless(facets, stage);
   Pending waiting;
   for (std::size_t i = 0; i < facets.size(); ++i) {
     if (stage[i] == Stage::inner) inner_.prepare(level.map.facet_size(facets[i]));
@@ -143,9 +155,6 @@ FacetLimit LimitSearch::limit(const Level& level, std::uint32_t f, Stage stage) 
     case Stage::mean:
       return MidedgeLimit{mean_of(level, level.map.loop(f)), std::nullopt};
     case Stage::endless:
-      if (plan_.rule == MidedgeRule::simple) return limit(level, f, Stage::mean);
-      throw ResourceLimit("limit points need more than " + std::to_string(kLongestRun) + " further steps: " + facet_name(f) +
-                          " has as many boundary vertices with two edges in a row");
     case Stage::waiting:
     case Stage::never:
       break;
@@ -159,19 +168,26 @@ bool LimitSearch::given_up(unsigned steps) const {
   return false;
 }
 
+/// Refuses further steps that would make too many facets.
+void check_room(const MidedgeMap& map, unsigned steps, const MidedgeLimitPlan& plan) {
+  const MidedgeCounts next = midedge_counts_after(map, steps, plan.boundary);
+  if (next.facets <= static_cast<double>(plan.most_facets)) return;
+  throw ResourceLimit("limit points need further steps of the mesh until two rings of quadrilaterals surround each facet, to " +
+                      std::to_string(static_cast<std::size_t>(next.facets)) + " facets; at most " + std::to_string(plan.most_facets) +
+                      " are allowed");
+}
+
 /// Two steps of the facets and two rings around them; they become the first facets.
 Level LimitSearch::stepped_part(const Level& level, std::span<const std::uint32_t> facets) const {
   MidedgePart part = midedge_part(level.map, facets, 2);
-  const MidedgeCounts next = midedge_counts_after(part.map, 2, plan_.boundary);
-  if (next.facets > static_cast<double>(plan_.most_facets)) {
-    throw ResourceLimit("limit points need further steps of the mesh until two rings of quadrilaterals surround each facet, to " +
-                        std::to_string(static_cast<std::size_t>(next.facets)) + " facets; at most " +
-                        std::to_string(plan_.most_facets) + " are allowed");
-  }
+  const bool dropping = plan_.boundary == MidedgeBoundary::drop;  // then only one step is counted exactly
+  check_room(part.map, dropping ? 1 : 2, plan_);
   Level cut{std::move(part.map), {}};
   for (const std::uint32_t v : part.vertices) cut.points.push_back(level.points[v]);
   if (plan_.boundary == MidedgeBoundary::dual) return midedge_double_step(cut, plan_.rule);
-  return midedge_step(midedge_step(cut, plan_.rule, plan_.boundary), plan_.rule, plan_.boundary);
+  const Level next = midedge_step(cut, plan_.rule, plan_.boundary);
+  if (dropping) check_room(next.map, 1, plan_);
+  return midedge_step(next, plan_.rule, plan_.boundary);
 }
 
 constexpr std::uint32_t kNoFacet = UINT32_MAX;

@@ -9,7 +9,8 @@ namespace hexact {
 namespace {
 
 struct Boundary {
-  double edges = 0;                      ///< = boundary vertices on a manifold
+  double edges = 0;
+  double vertices = 0;                   ///< fewer than edges where the surface touches itself
   double ends = 0;                       ///< inner edges that end at a boundary vertex
   std::vector<std::vector<int>> loops;   ///< edges at each boundary vertex, in order along the boundary, 4 for more
 };
@@ -26,6 +27,7 @@ Boundary boundary_of(const MidedgeMap& map) {
     leaving[map.origin(h)] = h;
     ++result.edges;
   }
+  result.vertices = static_cast<double>(std::count_if(leaving.begin(), leaving.end(), [](std::uint32_t h) { return h != kNoTwin; }));
   for (std::uint32_t v = 0; v < leaving.size(); ++v) {
     if (leaving[v] == kNoTwin) continue;
     result.loops.emplace_back();
@@ -65,7 +67,7 @@ MidedgeCounts midedge_counts_after(const MidedgeMap& map, unsigned steps, Midedg
     return n;
   }
   Boundary rim = boundary_of(map);
-  double inner_vertices = n.vertices - rim.edges;
+  double inner_vertices = n.vertices - rim.vertices;
   for (unsigned i = 0; i < steps; ++i) {
     const double inner_edges = n.edges - rim.edges, corners = 2 * inner_edges + rim.edges;
     if (boundary == MidedgeBoundary::dual) {

@@ -404,6 +404,37 @@ TEST_CASE("several components are refined side by side", "[midedge]") {
   CHECK(counts(map) == std::vector<std::size_t>{96, 192, 100});
 }
 
+TEST_CASE("the facet of a vertex begins where the first half-edge leaves it, or the boundary does", "[midedge]") {
+  const auto flat = [](int i, int j) { return Point{i, j, 0}; };
+  std::vector<MidedgeMap> maps;
+  for (const Level& base : closed_samples()) maps.insert(maps.end(), {base.map, refined(base, 1, MidedgeRule::simple).map});
+  maps.push_back(grid(4, 3, flat).map);
+  maps.push_back(grid(4, 3, flat).map.stepped(MidedgeBoundary::close));
+  for (const MidedgeMap& map : maps) {
+    std::vector<std::uint32_t> begin(map.vertex_count(), kNoTwin), at_boundary = begin;
+    for (auto h = static_cast<std::uint32_t>(map.half_edge_count()); h-- > 0;) {
+      begin[map.origin(h)] = h;
+      if (map.twin(h) == kNoTwin) at_boundary[map.origin(h)] = h;
+    }
+    const auto leaving = [&](std::uint32_t v) { return at_boundary[v] != kNoTwin ? at_boundary[v] : begin[v]; };
+    const auto edge = map.edge_numbers();
+    const MidedgeMap single = map.stepped(MidedgeBoundary::close), doubled = map.double_stepped();
+    for (auto f = static_cast<std::uint32_t>(map.facet_count()); f < single.facet_count(); ++f) {
+      CHECK(single.origin(single.facet_start(f)) == edge[leaving(static_cast<std::uint32_t>(*single.address(f).parent))]);
+    }
+    for (auto f = static_cast<std::uint32_t>(map.facet_count()); f < doubled.facet_count(); ++f) {
+      const auto parent = static_cast<std::uint32_t>(*doubled.address(f).parent);
+      const std::uint32_t h = doubled.origin(doubled.facet_start(f));
+      if (doubled.address(f).level == map.level() + 1) {
+        CHECK(h == leaving(parent));
+      } else {
+        const std::uint32_t side = map.previous(h);
+        CHECK((edge[side] == parent && map.origin(side) < map.target(side)));
+      }
+    }
+  }
+}
+
 TEST_CASE("sizes are known before the work", "[midedge]") {
   const auto sizes = [](const MidedgeMap& map) {
     return MidedgeCounts{static_cast<double>(map.vertex_count()), static_cast<double>(map.edge_count()),
@@ -420,6 +451,7 @@ TEST_CASE("sizes are known before the work", "[midedge]") {
   for (const Level& base : open) {
     MidedgeMap dual = base.map, close = base.map, drop = base.map;
     for (unsigned n = 1; n <= 6; ++n) {
+      const MidedgeMap before = drop;
       close = close.stepped(MidedgeBoundary::close);
       drop = drop.stepped(MidedgeBoundary::drop);
       check_consistent(close);
@@ -427,6 +459,11 @@ TEST_CASE("sizes are known before the work", "[midedge]") {
       CHECK(midedge_counts_after(base.map, n, MidedgeBoundary::close) == sizes(close));
       const MidedgeCounts bound = midedge_counts_after(base.map, n, MidedgeBoundary::drop);
       CHECK((bound.vertices >= static_cast<double>(drop.vertex_count()) && bound.facets >= static_cast<double>(drop.facet_count())));
+      // One step is known exactly, also from levels with pinched vertices; more are bounded.
+      CHECK(midedge_counts_after(before, 1, MidedgeBoundary::drop) == sizes(drop));
+      const MidedgeCounts ahead = midedge_counts_after(before, 3, MidedgeBoundary::drop);
+      const MidedgeMap third = drop.stepped(MidedgeBoundary::drop).stepped(MidedgeBoundary::drop);
+      CHECK((ahead.vertices >= sizes(third).vertices && ahead.edges >= sizes(third).edges && ahead.facets >= sizes(third).facets));
       if (n % 2 != 0) continue;
       dual = dual.double_stepped();
       CHECK(midedge_counts_after(base.map, n, MidedgeBoundary::dual) == sizes(dual));

@@ -139,6 +139,11 @@ TEST_CASE("close: long runs of boundary vertices with two edges take as many ste
   CHECK_FALSE(limits_of(long_run, simple, 1)[0]->normal);
   CHECK(refusal([&] { (void)limits_of(long_run, six, 1); }).find("facet 0 has as many boundary vertices") != std::string::npos);
   CHECK(limits_of(mesh(60), simple, 1)[0]->normal);
+  // The refusal names the smallest of several facets, in whatever order they are met.
+  const Level two = beside(long_run, long_run);
+  for (const std::vector<std::uint32_t>& facets : {std::vector<std::uint32_t>{2, 0, 1}, {1, 2, 3, 0}}) {
+    CHECK(refusal([&] { (void)midedge_facet_limits(two, six, facets); }).find("facet 0 has as many") != std::string::npos);
+  }
 }
 
 TEST_CASE("dual: the surface ends half a cell inside, at the middle of each boundary fan", "[midedge]") {

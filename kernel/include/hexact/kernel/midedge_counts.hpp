@@ -12,7 +12,8 @@ struct MidedgeCounts {
 };
 
 /// The sizes after `steps` further single steps (under `dual` on an open mesh an even number), without making them.
-/// Exact but for `drop` on open meshes, where it is an upper bound. Cost: O(H) and, under `close`, O(steps · boundary).
+/// Exact but for `drop` on open meshes, where it is exact for one step and an upper bound for more, often a wide one: the
+/// boundary eats the mesh up, and how fast depends on all of it. Cost: O(H) and, under `close`, O(steps · boundary).
 [[nodiscard]] MidedgeCounts midedge_counts_after(const MidedgeMap& map, unsigned steps, MidedgeBoundary boundary);
 
 }  // namespace hexact
