@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -51,10 +52,13 @@ Rational in_field(const QuadraticField& x, const Rational*) {
 double to_double(double x) { return x; }
 double to_double(const Rational& x) { return x.to_double(); }
 
-/// Refuses work that would pass the bounds before it starts.
+/// Refuses work that would pass the bounds, before it starts; under `drop` before each step, as no more is known ahead.
 template <class S>
 void check_bounds(const MidedgeMap& map, const MidedgePlan& plan, unsigned levels, const Common& common) {
-  const MidedgeCounts n = midedge_counts_after(map, levels, plan.boundary);
+  const bool step_by_step = !map.closed() && plan.boundary == MidedgeBoundary::drop;
+  if (map.level() > 0 && !step_by_step) return;
+  if (step_by_step) levels = std::min(levels, map.level() + 1);
+  const MidedgeCounts n = midedge_counts_after(map, levels - map.level(), plan.boundary);
   if (2 * n.edges >= 4294967295.0) {
     throw ResourceLimit(fmt::format("level {} would have {:.0f} half-edges; at most 4294967294 are possible", levels, 2 * n.edges));
   }
@@ -180,14 +184,18 @@ CarryingLevel<S> level_of(const Soup& input, MidedgeMap map, const SubdivideOpti
   return level;
 }
 
+/// A figure of a level; "-" where there is none, or none that a double could hold.
+std::string figure(const nlohmann::ordered_json& x, int digits) {
+  return x.is_number() && std::isfinite(x.get<double>()) ? fmt::format("{:.{}g}", x.get<double>(), digits) : "-";
+}
+
 std::string report_text(const nlohmann::ordered_json& report) {
   std::string text = "level   vertices     facets  max angle     median      longest     shortest         area       volume  seconds\n";
   for (const auto& row : report["levels"]) {
-    text += fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12.5g} {:>12.5g} {:>12.6g} {:>12} {:>8.3f}\n", row["level"].get<unsigned>(),
+    text += fmt::format("{:>5} {:>10} {:>10} {:>10.4f} {:>10.4f} {:>12} {:>12} {:>12} {:>12} {:>8.3f}\n", row["level"].get<unsigned>(),
                         row["vertices"].get<std::size_t>(), row["faces"].get<std::size_t>(),
                         row["max_normal_angle_deg"].get<double>(), row["median_normal_angle_deg"].get<double>(),
-                        row["longest_edge"].get<double>(), row["shortest_edge"].get<double>(),
-                        row["area"].get<double>(), row["volume"].is_null() ? "-" : fmt::format("{:.6g}", row["volume"].get<double>()),
+                        figure(row["longest_edge"], 5), figure(row["shortest_edge"], 5), figure(row["area"], 6), figure(row["volume"], 6),
                         row["seconds"].get<double>());
     const std::size_t pinched = row.value("pinched_vertices", std::size_t{0});
     if (pinched > 0) text += fmt::format("      {} vertices are pinched: the surface touches itself there\n", pinched);
@@ -237,6 +245,7 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
   while (level.mesh.map.level() < options.levels) {
     // Each level costs about twice the one before.
     common.work.report(0.05 + 0.8 * std::pow(2.0, static_cast<double>(level.mesh.map.level()) - options.levels));
+    if (level.mesh.map.level() > 0) check_bounds<S>(level.mesh.map, plan, options.levels, common);
     const auto begin = Clock::now();
     level.advance(plan);
     show(std::chrono::duration<double>(Clock::now() - begin).count());

@@ -28,7 +28,15 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double length(const Vector& a) { return std::sqrt(dot(a, a)); }
+
+/// Squares in this range have lost nothing to overflow or underflow.
+constexpr double kLeastSquare = 1e-200, kGreatestSquare = 1e200;
+inline bool trusted(double square) { return square >= kLeastSquare && square <= kGreatestSquare; }
+inline double length(const Vector& a) {
+  const double square = dot(a, a);
+  // Not hypot of three, which some libraries make NaN of infinities.
+  return trusted(square) ? std::sqrt(square) : std::hypot(std::hypot(a.x, a.y), a.z);
+}
 
 struct Extremes {
   double angle = 0, longest = 0, shortest = std::numeric_limits<double>::infinity();
@@ -40,14 +48,15 @@ inline double angle_between(const Vector& a, const Vector& b) { return std::atan
 template <class Map>
 double diameter(const Map& map, std::span<const Vector> points, std::uint32_t f) {
   const std::uint32_t start = map.facet_start(f), end = start + map.facet_size(f);
-  double squared = 0;
+  double squared = 0, largest = 0;
   for (std::uint32_t i = start; i < end; ++i) {
     for (std::uint32_t j = i + 1; j < end; ++j) {
       const Vector d = minus(points[map.origin(i)], points[map.origin(j)]);
       squared = std::max(squared, dot(d, d));
+      if (!trusted(squared)) largest = std::max(largest, length(d));
     }
   }
-  return std::sqrt(squared);
+  return trusted(squared) ? std::sqrt(squared) : largest;
 }
 
 template <class Map>
@@ -97,18 +106,55 @@ HoneycombStatistics measure(const Map& map, std::span<const Point3<double>> poin
           largest_diameter(map, points)};
 }
 
+/// Newell's sum over the fan from the first corner; `corner(i)` is corner i < k.
+template <class Corner>
+Vector newell_sum(std::uint32_t k, const Corner& corner) {
+  const Vector p = corner(0);
+  Vector sum{0, 0, 0};
+  for (std::uint32_t i = 1; i + 1 < k; ++i) {
+    const Vector n = cross(minus(corner(i), p), minus(corner(i + 1), p));
+    sum = {sum.x + n.x, sum.y + n.y, sum.z + n.z};
+  }
+  return sum;
+}
+
+/// The same in units of the facet's extent, a power of two: very large and very small facets have normals too.
+template <class Corner>
+Vector scaled_newell_sum(std::uint32_t k, const Corner& corner) {
+  for (const double factor : {1.0, 0.5}) {  // differences of the largest doubles overflow
+    const auto difference = [&](std::uint32_t i) {
+      const Vector p = corner(i), q = corner(0);
+      return minus({factor * p.x, factor * p.y, factor * p.z}, {factor * q.x, factor * q.y, factor * q.z});
+    };
+    double extent = 0;
+    bool finite = true;
+    for (std::uint32_t i = 1; i < k; ++i) {
+      const Vector d = difference(i);
+      for (const double x : {d.x, d.y, d.z}) {
+        finite = finite && std::isfinite(x);
+        extent = std::max(extent, std::abs(x));
+      }
+    }
+    if (!finite) continue;
+    if (extent == 0) break;
+    const int exponent = std::ilogb(extent) + 1;
+    return newell_sum(k, [&](std::uint32_t i) {
+      const Vector d = difference(i);
+      return Vector{std::ldexp(d.x, -exponent), std::ldexp(d.y, -exponent), std::ldexp(d.z, -exponent)};
+    });
+  }
+  return {0, 0, 0};
+}
+
 template <class Map>
 std::vector<Point3<double>> newell_normals(const Map& map, std::span<const Point3<double>> points) {
   std::vector<Vector> normals(map.facet_count());
   tbb::parallel_for(Range(0, static_cast<std::uint32_t>(map.facet_count()), kGrain), [&](const Range& range) {
     for (std::uint32_t f = range.begin(); f != range.end(); ++f) {
-      const std::uint32_t start = map.facet_start(f), end = start + map.facet_size(f);
-      const Vector& p = points[map.origin(start)];
-      Vector sum{0, 0, 0};
-      for (std::uint32_t h = start + 1; h + 1 < end; ++h) {
-        const Vector n = cross(minus(points[map.origin(h)], p), minus(points[map.origin(h + 1)], p));
-        sum = {sum.x + n.x, sum.y + n.y, sum.z + n.z};
-      }
+      const std::uint32_t start = map.facet_start(f), k = map.facet_size(f);
+      const auto corner = [&](std::uint32_t i) { return points[map.origin(start + i)]; };
+      Vector sum = newell_sum(k, corner);
+      if (!trusted(dot(sum, sum))) sum = scaled_newell_sum(k, corner);
       const double l = length(sum);
       normals[f] = l > 0 ? Vector{sum.x / l, sum.y / l, sum.z / l} : Vector{0, 0, 0};
     }

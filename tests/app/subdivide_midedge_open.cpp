@@ -169,3 +169,61 @@ TEST_CASE("limits and scaled sizes of open meshes are the same bytes for any num
     CHECK(bytes('1') == bytes('2'));
   }
 }
+
+TEST_CASE("drop: bounds are those of the levels that come, not of an estimate", "[app][midedge]") {
+  const program::Folder folder;
+  program::write_bytes((folder.path() / "t.obj").string(), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  program::write_bytes((folder.path() / "g.obj").string(), grid(4, 3, [](int, int) { return 0; }));
+  const auto triangle = report(run(folder, "$hexact subdivide t.obj --scheme midedge --boundary drop --levels 40 -o a.obj --json"));
+  CHECK(triangle.at("levels")[40].at("faces") == 1);
+  const std::string command = "$hexact subdivide g.obj --scheme midedge --boundary drop --levels 10 -o a.obj --json --max-facets ";
+  const auto levels = report(run(folder, command + "1000")).at("levels");
+  const auto last = levels[10].at("faces").get<std::size_t>();
+  CHECK(last > levels[9].at("faces").get<std::size_t>());
+  CHECK(report(run(folder, command + std::to_string(last))).at("levels").size() == 11);
+  const auto refused = run(folder, command + std::to_string(last - 1));
+  CHECK(refused.status == 4);
+  CHECK(refused.out.find("level 10 would have " + std::to_string(last) + " facets") != std::string::npos);
+}
+
+TEST_CASE("figures of very large and very small meshes", "[app][midedge]") {
+  const program::Folder folder;
+  const auto cube = [&](const std::string& x) {
+    std::string text;
+    for (int i = 0; i < 8; ++i) {
+      for (const int axis : {1, 2, 4}) text += (axis == 1 ? "v " : " ") + std::string(i & axis ? "" : "-") + x;
+      text += '\n';
+    }
+    program::write_bytes((folder.path() / "c.obj").string(), text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n");
+  };
+  const std::string command = "$hexact subdivide c.obj --scheme midedge6 --levels 2 --keep-size -o a.obj ";
+  cube("1");
+  const auto expected = report(run(folder, command + "--json"));
+  for (const std::string size : {"1e103", "1e200", "1e-200"}) {
+    cube(size);
+    for (const std::string arithmetic : {"double", "rational"}) {
+      const auto r = report(run(folder, command + "--json --arithmetic " + arithmetic));
+      CHECK(r.at("size_factors")[0].get<double>() == Approx(expected.at("size_factors")[0].get<double>()).epsilon(1e-12));
+      for (const char* angle : {"max_normal_angle_deg", "median_normal_angle_deg"}) {
+        CHECK(r.at("levels")[2].at(angle).get<double>() == Approx(expected.at("levels")[2].at(angle).get<double>()).epsilon(1e-12));
+      }
+    }
+  }
+  // Lengths, areas and volumes that no double holds are not shown as numbers.
+  cube("1e308");
+  const auto text = run(folder, command + "--arithmetic rational");
+  CHECK(text.status == 0);
+  CHECK(text.out.find("nan") == std::string::npos);
+  CHECK(text.out.find("inf") == std::string::npos);
+  CHECK(text.out.find(" - ") != std::string::npos);
+  CHECK(report(run(folder, command + "--arithmetic rational --json")).at("levels")[0].at("volume").is_null());
+}
+
+TEST_CASE("a pipe can be named as the output", "[app]") {
+  const program::Folder folder;
+  const auto direct = run(folder, "$hexact make cube -o - --to obj");
+  REQUIRE(direct.status == 0);
+  const auto piped = run(folder, "$hexact make cube -o /dev/stdout --to obj --quiet | cat");
+  CHECK(piped.out.starts_with(direct.out));
+  CHECK(piped.err.empty());
+}
