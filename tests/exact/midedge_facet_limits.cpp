@@ -140,7 +140,7 @@ TEST_CASE("close: long runs of boundary vertices with two edges take as many ste
   CHECK(refusal([&] { (void)limits_of(long_run, six, 1); }).find("facet 0 has as many boundary vertices") != std::string::npos);
   CHECK(limits_of(mesh(60), simple, 1)[0]->normal);
   // The refusal names the smallest of several facets, in whatever order they are met.
-  const Level two = beside(long_run, long_run);
+  const Level two = beside(long_run, mesh(203));
   for (const std::vector<std::uint32_t>& facets : {std::vector<std::uint32_t>{2, 0, 1}, {1, 2, 3, 0}}) {
     CHECK(refusal([&] { (void)midedge_facet_limits(two, six, facets); }).find("facet 0 has as many") != std::string::npos);
   }
