@@ -14,7 +14,8 @@ namespace {
 
 using Text = std::string_view;
 
-bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+bool is_space(char c) { return c == '\n' || is_blank(c); }
 
 bool whole_integer(Text w, std::int64_t& x) {
   const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), x);
@@ -54,6 +55,7 @@ void read_loops(Scanner& in, Body& b) {
   s.start.reserve(b.planes.size() + 1);
   s.corner.reserve(6 * b.planes.size());
   for (std::size_t f = 0; f < b.planes.size(); ++f) {
+    in.next_line();
     const std::size_t size = in.count();
     if (size == 1 || size == 2) in.fail("a facet needs 3 corners");
     for (std::size_t k = 0; k < size; ++k) s.corner.push_back(static_cast<Index>(in.integer(0, 1 << 30)));
@@ -61,45 +63,63 @@ void read_loops(Scanner& in, Body& b) {
   }
 }
 
-void read_section(Scanner& in, Body& b, Text keyword) {
-  const bool frame = !b.seen_planes && !b.seen_loops;
-  if (keyword == "field" && frame) {
-    const Text field = in.word();
-    if (field != "Q" && field != "Q(sqrt5)") in.fail("unknown field " + std::string(field));
-    b.root5 = field != "Q";
-  } else if (keyword == "scale" && frame) {
-    b.scale = static_cast<long>(in.integer(-100000000, 100000000));
-  } else if (keyword == "shift" && frame) {
-    for (mpq_class& x : b.shift) x = in.number(in.word(), false).a;
-  } else if (keyword == "planes" && frame) {
-    b.seen_planes = true;
-    const std::size_t n = in.count();
-    b.planes.reserve(n);
-    b.address.reserve(n);
-    for (std::size_t i = 0; i < n; ++i) read_plane(in, b);
-  } else if (keyword == "loops" && b.seen_planes && !b.seen_loops) {
-    b.seen_loops = true;
-    read_loops(in, b);
-  } else if (keyword == "vertices" && b.seen_loops && !b.seen_vertices) {
-    b.seen_vertices = true;
-    b.surface.triple.resize(in.count());
-    const auto last = static_cast<std::int64_t>(b.planes.size()) - 1;
-    for (auto& t : b.surface.triple) {
-      for (Index& f : t) f = static_cast<Index>(in.integer(0, last));
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) in.fail("the three defining planes must differ");
+// The first word of the next line.
+Text next_keyword(Scanner& in) {
+  in.next_line();
+  return in.word();
+}
+
+void need(const Scanner& in, Text keyword, Text expected) {
+  if (keyword != expected) in.fail("expected " + std::string(expected) + ", found " + std::string(keyword));
+}
+
+// Field, scale, shift: up to the line `planes`, whose keyword is read.
+void read_frame(Scanner& in, Body& b) {
+  need(in, next_keyword(in), "field");
+  const Text field = in.word();
+  if (field != "Q" && field != "Q(sqrt5)") in.fail("unknown field " + std::string(field));
+  b.root5 = field != "Q";
+  need(in, next_keyword(in), "scale");
+  b.scale = static_cast<long>(in.integer(-100000, 100000));
+  Text keyword = next_keyword(in);
+  if (keyword == "shift") {
+    for (mpq_class& x : b.shift) {
+      x = in.number(in.word(), false).a;
+      if (mpz_scan1(x.get_den_mpz_t(), 0) + 1 != mpz_sizeinbase(x.get_den_mpz_t(), 2)) in.fail("a shift must be dyadic");
     }
-  } else {
-    in.fail("unexpected " + std::string(keyword));
+    keyword = next_keyword(in);
   }
+  need(in, keyword, "planes");
+}
+
+// A body, from the line behind this one. The keyword of the first line that is none of its own.
+Text read_body(Scanner& in, Body& b) {
+  read_frame(in, b);
+  const std::size_t n = in.count();
+  b.planes.reserve(n);
+  b.address.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) in.next_line(), read_plane(in, b);
+  need(in, next_keyword(in), "loops");
+  read_loops(in, b);
+  const Text keyword = next_keyword(in);
+  if (keyword != "vertices") return keyword;
+  b.has_vertices = true;
+  b.surface.triple.resize(in.count());
+  const auto last = static_cast<std::int64_t>(b.planes.size()) - 1;
+  for (auto& t : b.surface.triple) {
+    in.next_line();
+    for (Index& f : t) f = static_cast<Index>(in.integer(0, last));
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) in.fail("the three defining planes must differ");
+  }
+  return next_keyword(in);
 }
 
 // Every loop names vertices that exist; without `vertices` the three facets of each vertex define it.
 void finish(const Scanner& in, Body& b) {
   Surface& s = b.surface;
-  if (!b.seen_loops) in.fail("a body without planes and loops");
   const std::size_t named = s.corner.empty() ? 0 : std::size_t{*std::max_element(s.corner.begin(), s.corner.end())} + 1;
-  if (b.seen_vertices ? named > s.triple.size() : named > s.corner.size()) in.fail("a loop names a vertex that does not exist");
-  if (b.seen_vertices) return;
+  if (b.has_vertices ? named > s.triple.size() : named > s.corner.size()) in.fail("a loop names a vertex that does not exist");
+  if (b.has_vertices) return;
   s.triple.assign(named, {kNone, kNone, kNone});
   std::vector<unsigned char> filled(named, 0);
   for (std::size_t f = 0; f < s.facets(); ++f) {
@@ -143,27 +163,32 @@ Certificate parse(Scanner& in, std::string& digest) {
   if (in.word() != "hexact-certificate") in.fail("is no certificate; `hexact certify` makes one");
   if (in.word() != "1") in.fail("only version 1 is known");
   Certificate c;
-  Body* body = &c.body;
-  for (Text w = in.word(); w != "sha256"; w = in.word()) {
+  for (Text w = read_body(in, c.body); w != "sha256";) {
     if (w.empty()) in.fail("the digest is missing");
+    if (w == "body") {
+      const Text name = in.word();
+      if (name.empty()) in.fail("a body without a name");
+      const auto [it, is_new] = c.bodies.try_emplace(std::string(name));
+      if (!is_new) in.fail("a second body of that name");
+      w = read_body(in, it->second);
+      continue;
+    }
     if (w == "claim") {
       c.claims.push_back(read_claim(in));
-    } else if (w == "body") {
-      const auto [it, is_new] = c.bodies.try_emplace(std::string(in.word()));
-      if (!is_new) in.fail("a second body of that name");
-      body = &it->second;
     } else if (w == "support") {
       auto& list = c.supports[std::string(in.word())];
       const auto plane = static_cast<std::size_t>(in.integer(0, kNone)), vertex = static_cast<std::size_t>(in.integer(0, kNone));
       list.emplace(plane, vertex);  // the first one counts
     } else {
-      read_section(in, *body, w);
+      in.fail("unexpected " + std::string(w));
     }
+    w = next_keyword(in);
   }
   finish(in, c.body);
   for (auto& [name, b] : c.bodies) finish(in, b);
   check_names(in, c);
   digest = std::string(in.word());
+  in.next_line();
   if (!in.word().empty()) in.fail("bytes follow the digest");
   return c;
 }
@@ -193,7 +218,7 @@ Certificate read_certificate(const std::string& path) { return parse_certificate
 Certificate parse_certificate(std::string_view bytes, const std::string& name) {
   const Text signed_bytes = bytes.substr(0, last_line(bytes));
   auto expected = std::async(std::launch::async, [&] { return sha256(signed_bytes); });  // half the time of reading
-  Scanner in(bytes, name);
+  Scanner in(bytes, name, Layout::lines);
   std::string digest;
   Certificate c = parse(in, digest);
   if (!has_digest(bytes)) in.fail("bytes follow the digest");
@@ -214,22 +239,40 @@ bool has_digest(std::string_view bytes) {
 }
 
 std::string_view Scanner::word() {
+  if (layout_ == Layout::words) skip_lines();
   const char *p = rest_.data(), *const end = p + rest_.size();
-  for (; p != end && (is_space(*p) || *p == '#'); p += p != end ? 1 : 0) {
-    if (*p == '#') p = std::find(p, end, '\n');
-    if (p == end) break;
-    if (*p == '\n') ++line_;
-  }
+  while (p != end && is_blank(*p)) ++p;
   const char* const begin = p;
   while (p != end && !is_space(*p)) ++p;
   rest_ = {p, static_cast<std::size_t>(end - p)};
   return {begin, static_cast<std::size_t>(p - begin)};
 }
 
+void Scanner::next_line() {
+  if (const Text extra = word(); !extra.empty()) fail("expected the end of the line, found " + std::string(extra));
+  skip_lines();
+}
+
+// Over spaces, line ends and comments to the next word.
+void Scanner::skip_lines() {
+  const char *p = rest_.data(), *const end = p + rest_.size();
+  for (; p != end && (is_space(*p) || *p == '#'); p += p != end ? 1 : 0) {
+    if (*p == '#') p = std::find(p, end, '\n');
+    if (p == end) break;
+    if (*p == '\n') ++line_;
+  }
+  rest_ = {p, static_cast<std::size_t>(end - p)};
+}
+
 std::int64_t Scanner::integer(std::int64_t low, std::int64_t high) {
   const Text w = word();
+  // A count or an index has no sign, and no integer more than 18 digits.
+  const bool has_sign = !w.empty() && (w[0] == '-' || w[0] == '+');
+  const Text digits = w.substr(has_sign ? 1 : 0);
   std::int64_t x = 0;
-  if (!whole_integer(w, x) || (low >= 0 && w[0] == '-') || x < low || x > high) {
+  if (digits.size() > 18 || digits.substr(0, 1) == "-" || !whole_integer(digits, x) || (has_sign && low >= 0)) x = low - 1;
+  else if (has_sign && w[0] == '-') x = -x;
+  if (x < low || x > high) {
     fail("expected an integer from " + std::to_string(low) + " to " + std::to_string(high) + ", found " + std::string(w));
   }
   return x;

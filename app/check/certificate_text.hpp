@@ -34,7 +34,7 @@ struct Address {
 };
 
 struct Body {
-  bool root5 = false, seen_planes = false, seen_loops = false, seen_vertices = false;
+  bool root5 = false, has_vertices = false;
   long scale = 0;
   std::array<mpq_class, 3> shift;
   Planes planes;
@@ -63,22 +63,30 @@ std::size_t last_line(std::string_view bytes);
 // Whether the last line begins with the word sha256.
 bool has_digest(std::string_view bytes);
 
-// Splits text into words over spaces, line ends and `#` comments, and counts the lines.
+// Whether words run on over line ends and `#` starts a comment at each of them, as in meshes; or every line is a record of
+// its own and a comment is a line that begins with `#`, as in certificates.
+enum class Layout { words, lines };
+
+// Splits text into words and counts the lines.
 class Scanner {
  public:
-  Scanner(std::string_view bytes, std::string file) : rest_(bytes), file_(std::move(file)) {
+  Scanner(std::string_view bytes, std::string file, Layout layout) : rest_(bytes), file_(std::move(file)), layout_(layout) {
     if (rest_.substr(0, 3) == "\xef\xbb\xbf") rest_.remove_prefix(3);  // a byte order mark
+    if (layout_ == Layout::lines) skip_lines();
   }
   [[noreturn]] void fail(const std::string& what) const { throw Malformed(file_, line_, what); }
-  std::string_view word();                                     // empty at the end
+  std::string_view word();                                     // empty at the end, of the line or of the file
+  void next_line();                                            // to the next that has words; of this one none may be left
   std::int64_t integer(std::int64_t low, std::int64_t high);   // the next word, an integer within these bounds
   std::size_t count();                                         // a number of things that may still follow
   Number number(std::string_view word, bool root5) const;      // p, p/q or p/q+r/s*sqrt5
 
  private:
+  void skip_lines();
   mpq_class rational(std::string_view word) const;
   std::string_view rest_;
   std::string file_;
+  Layout layout_;
   std::size_t line_ = 1;
 };
 

@@ -5,7 +5,8 @@
 namespace check {
 
 RegularBlock read_regular(Scanner& in) {
-  const auto word = [&](const std::string& expected) {
+  const auto line = [&](const std::string& expected) {
+    in.next_line();
     if (in.word() != expected) in.fail("expected " + expected);
   };
   const auto small = [&](std::int64_t low, std::int64_t high) { return static_cast<int>(in.integer(low, high)); };
@@ -13,21 +14,23 @@ RegularBlock read_regular(Scanner& in) {
   constexpr int kMost = 64;
   RegularBlock block;
   block.continuity = small(0, kMost);
-  word("directions");
+  line("directions");
   for (int n = small(0, kMost); n > 0; --n) {
+    in.next_line();
     const int x = small(-kMost, kMost);
     block.directions.emplace_back(x, small(-kMost, kMost));
   }
-  word("smoothing");
+  line("smoothing");
   for (int n = small(0, kMost); n > 0; --n) block.link.push_back(number());
   if (block.link.empty()) return block;
-  word("growth"), block.low = number(), block.high = number();
-  word("word");
+  line("growth"), block.low = number(), block.high = number();
+  line("word");
   for (int n = small(0, 4); n > 0; --n) block.word.push_back(small(0, 1));
-  word("vertices");
+  line("vertices");
   int entries = 0;
   for (int n = small(0, kMost); n > 0; --n) {
     PolytopeVertex vertex;
+    in.next_line();
     if (block.vertices.empty()) entries = small(0, kMost);
     else vertex.parent = small(0, kMost), vertex.digit = small(0, 1);
     for (int i = 0; i < entries; ++i) {
@@ -37,9 +40,10 @@ RegularBlock read_regular(Scanner& in) {
     }
     block.vertices.push_back(std::move(vertex));
   }
-  word("images");
+  line("images");
   for (int n = small(0, kMost); n > 0; --n) {
     PolytopeImage image;
+    in.next_line();
     image.vertex = small(0, kMost), image.digit = small(0, 1);
     for (int m = small(0, kMost); m > 0; --m) {
       const int v = small(0, kMost);

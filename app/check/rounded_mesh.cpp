@@ -106,7 +106,7 @@ std::string loops_fault(const Surface& s, const Mesh& mesh) {
 Mesh read_mesh(const std::string& path) { return parse_mesh(read_file(path), path); }
 
 Mesh parse_mesh(std::string_view bytes, const std::string& name) {
-  Scanner in(bytes, name);
+  Scanner in(bytes, name, Layout::words);
   if (bytes.compare(0, 3, "OFF") != 0) return read_obj(in);
   (void)in.word();
   return read_off(in);

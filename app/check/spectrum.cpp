@@ -194,15 +194,24 @@ mpq_class half_power(unsigned n) {
   return x;
 }
 
+// Whether a fraction is longer than the ends of cosines may be: the recursion below multiplies their length by k.
+bool too_long(const mpq_class& x) {
+  constexpr std::size_t kBits = 1024;
+  return mpz_sizeinbase(x.get_num_mpz_t(), 2) > kBits || mpz_sizeinbase(x.get_den_mpz_t(), 2) > kBits;
+}
+
 // Sturm: U_0, ..., U_{k-1} at x change sign as often as U_{k-1} has zeros cos(j pi/k) above x. Of these j = 2 is wanted.
+// At x = p/q the integers q^j U_j have the same signs.
 std::string cosine_fault(const ListedRow& row) {
+  if (too_long(row.cosine_lo) || too_long(row.cosine_hi)) return "an end of the cosine interval has more than 1024 bits";
   if (row.cosine_hi <= row.cosine_lo || row.cosine_hi - row.cosine_lo > half_power(200)) return "the cosine interval is wider than 2^-200";
   const auto zeros_above = [&](const mpq_class& x) {
-    mpq_class u0 = 0, u1 = 1;
+    const mpz_class twice = 2 * x.get_num(), square = x.get_den() * x.get_den();
+    mpz_class u0 = 0, u1 = 1;
     int changes = 0, last = 1;
     for (int j = 1; j < row.k; ++j) {
-      const mpq_class u2 = 2 * x * u1 - u0;
-      u0 = u1, u1 = u2;
+      mpz_class u2 = twice * u1 - square * u0;
+      u0 = std::move(u1), u1 = std::move(u2);
       if (sgn(u1) == -last) ++changes, last = -last;
     }
     return u1 == 0 ? -1 : changes;
@@ -218,6 +227,8 @@ bool rational_cosine(int angle, int k, mpq_class& c) {
   return true;
 }
 
+mpq_class greater(const mpq_class& a, const mpq_class& b) { return abs(a) < abs(b) ? b : a; }
+Ball greater(const Ball& a, const Ball& b) { return abs(a.m) < abs(b.m) ? b : a; }
 int sign_of(const mpq_class& x) { return sgn(x); }
 int sign_of(const Ball& x) { return x.sign(); }
 mpq_class near(const mpq_class& x) { return x; }
@@ -228,8 +239,12 @@ Ball near(const Ball& x) { return make_ball(x.m, 0); }
 // p_0 p - p_n q has, and its degree is less. A root on the circle stays there until nothing is certain.
 template <class Coefficient>
 int roots_within(std::vector<Coefficient> p, const mpq_class& r) {
-  Coefficient power(mpq_class(1));
-  for (Coefficient& a : p) a = a * power, power = power * Coefficient(r);
+  // Of p(rz), scaled: small roots in a small disc must not vanish behind the last bit of a ball.
+  mpq_class power = 1;
+  for (std::size_t i = p.size(); i-- > 0; power /= r) p[i] = p[i] * Coefficient(power);
+  const Coefficient end = near(greater(p.front(), p.back()));
+  if (sign_of(end) == 0) return -1;
+  for (Coefficient& a : p) a = a / end;
   int inside = 0;
   while (p.size() > 1) {
     const std::size_t n = p.size() - 1;

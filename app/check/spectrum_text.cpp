@@ -16,9 +16,12 @@ const std::vector<std::string> kStatements{"ordering", "ring", "c1", "ordering-f
 
 class SpectrumReader {
  public:
-  SpectrumReader(std::string_view bytes, const std::string& path) : in_(bytes, path) {}
+  SpectrumReader(std::string_view bytes, const std::string& path) : in_(bytes, path, Layout::lines) {}
   SpectrumFile read() {
-    next(), word("hexact-spectrum"), word("1"), word("scheme");
+    word_ = in_.word(), need("hexact-spectrum");
+    if (in_.word() != "1") in_.fail("only version 1 is known");
+    next(), need("scheme");
+    word_ = in_.word();
     const auto found = std::find(kSchemes.begin(), kSchemes.end(), word_);
     if (found == kSchemes.end()) in_.fail("there is no scheme " + std::string(word_));
     file_.scheme = static_cast<Scheme>(found - kSchemes.begin());
@@ -28,7 +31,7 @@ class SpectrumReader {
     if (names_claims) {
       const std::int64_t n = in_.integer(0, 6001);
       next();
-      for (std::int64_t i = 0; i < n; ++i) word("claim"), claims.emplace_back(word_), next();
+      for (std::int64_t i = 0; i < n; ++i) need("claim"), claims.emplace_back(in_.word()), next();
     }
     need("rows");
     const std::int64_t rows = in_.integer(0, 1000);
@@ -41,9 +44,10 @@ class SpectrumReader {
     }
     if (word_ == "regular" && names_claims && file_.scheme != Scheme::blocks) file_.regular = read_regular(in_), next();
     for (const std::string& c : claims) add_claim(c);
-    need("sha256"), next();
-    digest_ = word_;
-    if (!in_.word().empty()) in_.fail("bytes follow the digest");
+    need("sha256");
+    digest_ = in_.word();
+    next();
+    if (!word_.empty()) in_.fail("bytes follow the digest");
     return std::move(file_);
   }
 
@@ -51,11 +55,11 @@ class SpectrumReader {
   std::string_view digest() const { return digest_; }
 
  private:
-  void next() { word_ = in_.word(); }
+  // To the next line, and its first word.
+  void next() { in_.next_line(), word_ = in_.word(); }
   void need(const std::string& expected) const {
     if (word_ != expected) in_.fail("expected " + expected);
   }
-  void word(const std::string& expected) { need(expected), next(); }
   mpq_class number() { return in_.number(in_.word(), false).a; }
 
   void add_claim(const std::string& text) {
@@ -105,7 +109,10 @@ class SpectrumReader {
     mask.side = static_cast<int>(in_.integer(1, 64));
     for (int d = 0; d < r.k; ++d) {
       mask.blocks.emplace_back();
-      for (int i = 0; i < mask.side * mask.side; ++i) mask.blocks.back().push_back(number());
+      for (int i = 0; i < mask.side * mask.side; ++i) {
+        if (i % mask.side == 0) in_.next_line();
+        mask.blocks.back().push_back(number());
+      }
     }
     r.mask = std::move(mask);
     next();
@@ -114,6 +121,7 @@ class SpectrumReader {
     ListedMode out;
     need("mode"), in_.integer(m, m);
     for (std::int64_t n = in_.integer(0, 64); n > 0; --n) {
+      in_.next_line();
       const mpq_class lo = number(), hi = number();
       out.values.push_back({lo, hi, static_cast<int>(in_.integer(1, 64))});
     }

@@ -39,6 +39,42 @@ int largest_exponent(const ModeMatrix& m, const std::vector<std::size_t>& set) {
   return d;
 }
 
+[[noreturn]] void fail_not_symmetric() {
+  throw InvalidInput("NotSymmetric", "the weights have no mirror image: a characteristic polynomial is not real", "mode matrix");
+}
+
+/// A Laurent polynomial that is its own mirror image, in c: w_0 + Σ 2 w_e T_e(c), with Chebyshev's T_{e+1} = 2c T_e − T_{e−1}.
+CosinePolynomial in_cosine(const Laurent& x) {
+  const auto weight = [&](int exponent) {
+    const auto found = x.find(exponent);
+    return found == x.end() ? Rational() : found->second;
+  };
+  int last = 0;
+  for (const auto& [exponent, w] : x) {
+    if (weight(-exponent) != w) fail_not_symmetric();
+    last = std::max(last, exponent);
+  }
+  CosinePolynomial out(static_cast<std::size_t>(last) + 1);
+  out[0] = weight(0);
+  Polynomial before, now{Rational(1)};
+  for (int e = 1; e <= last; ++e) {
+    Polynomial next = product(now, {Rational(0), Rational(e == 1 ? 1 : 2)});
+    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= before[i];
+    before = std::move(now);
+    now = std::move(next);
+    const Rational twice = Rational(2) * weight(e);
+    for (std::size_t i = 0; i < now.size() && !twice.is_zero(); ++i) out[i] += twice * now[i];
+  }
+  return trimmed(std::move(out));
+}
+
+/// L − x.
+std::vector<CosinePolynomial> linear_factor(const Laurent& x) {
+  CosinePolynomial constant = in_cosine(x);
+  for (Rational& a : constant) a = -a;
+  return {std::move(constant), {Rational(1)}};
+}
+
 /// Coefficients as polynomials in c = (z + 1/z)/2 by interpolation at z = 2, 3, …
 std::vector<CosinePolynomial> interpolated_factor(const ModeMatrix& m, const std::vector<std::size_t>& set) {
   const int degree = static_cast<int>(set.size()) * largest_exponent(m, set);
@@ -49,9 +85,7 @@ std::vector<CosinePolynomial> interpolated_factor(const ModeMatrix& m, const std
     nodes.push_back((z + inverse) / Rational(2));
     const Polynomial p = at_rational(m, set, z);
     // Two Laurent polynomials that agree with their mirror images at so many nodes are mirror images of themselves.
-    if (degree > 0 && p != at_rational(m, set, inverse)) {
-      throw InvalidInput("NotSymmetric", "the weights have no mirror image: a characteristic polynomial is not real", "mode matrix");
-    }
+    if (degree > 0 && p != at_rational(m, set, inverse)) fail_not_symmetric();
     for (std::size_t j = 0; j <= set.size(); ++j) values[j].push_back(p[j]);
   }
   std::vector<CosinePolynomial> out;
@@ -103,7 +137,19 @@ void add_split(std::vector<CharacteristicFactor>& out, int angle, const std::vec
 std::vector<CharacteristicFactor> characteristic_factors(const SubdivisionMatrix& matrix, int mode) {
   const ModeMatrix m = mode_matrix(matrix, mode);
   std::vector<CharacteristicFactor> out;
-  for (const auto& set : dependent_sets(m)) add_split(out, m.angle, interpolated_factor(m, set));
+  for (const auto& set : dependent_sets(m)) {
+    add_split(out, m.angle, set.size() == 1 ? linear_factor(m.at(set[0], set[0])) : interpolated_factor(m, set));
+  }
+  return out;
+}
+
+std::vector<std::vector<CharacteristicFactor>> characteristic_factors(const SubdivisionMatrix& matrix) {
+  std::vector<std::vector<CharacteristicFactor>> out{characteristic_factors(matrix, 0)};
+  for (int mode = 1; 2 * mode <= matrix.valence; ++mode) {
+    const bool is_new = mode == 1 || (mode == 2 && !matrix.harmonic.empty());
+    out.push_back(is_new ? characteristic_factors(matrix, mode) : out.back());
+    for (CharacteristicFactor& f : out.back()) f.angle = mode;
+  }
   return out;
 }
 

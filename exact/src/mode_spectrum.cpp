@@ -183,10 +183,22 @@ class ModeSolver {
 
 }  // namespace
 
-ModeSpectrum mode_spectrum(const SubdivisionMatrix& matrix, int mode) {
-  ModeSolver solver(mode, matrix.valence);
-  for (const CharacteristicFactor& factor : characteristic_factors(matrix, mode)) solver.add(factor);
+namespace {
+
+ModeSpectrum solved(const std::vector<CharacteristicFactor>& factors, int mode, int k) {
+  ModeSolver solver(mode, k);
+  for (const CharacteristicFactor& factor : factors) solver.add(factor);
   return std::move(solver).result();
+}
+
+}  // namespace
+
+ModeSpectrum mode_spectrum(const SubdivisionMatrix& matrix, int mode) { return solved(characteristic_factors(matrix, mode), mode, matrix.valence); }
+
+std::vector<ModeSpectrum> mode_spectra(const SubdivisionMatrix& matrix) {
+  std::vector<ModeSpectrum> out;
+  for (const auto& factors : characteristic_factors(matrix)) out.push_back(solved(factors, static_cast<int>(out.size()), matrix.valence));
+  return out;
 }
 
 }  // namespace hexact

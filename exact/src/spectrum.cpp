@@ -152,7 +152,7 @@ void decide_ordering(SpectrumRow& row) {
 SpectrumRow spectrum_row(const SpectrumSubject& subject) {
   SpectrumRow row;
   row.valence = subject.matrix.valence;
-  for (int m = 0; 2 * m <= row.valence; ++m) row.modes.push_back(mode_spectrum(subject.matrix, m));
+  row.modes = mode_spectra(subject.matrix);
   decide_ordering(row);
   if (row.ordering != Verdict::proved) {
     row.ring.reason = "there is no characteristic map without the ordering of the eigenvalues";

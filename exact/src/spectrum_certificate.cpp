@@ -19,6 +19,10 @@ using Scheme = std::optional<SpectrumScheme>;
 
 /// The widest interval that is accepted.
 const Rational kCosineWidth = Rational(1).scaled(-200);
+/// The longest numerator and denominator of its ends: to prove that it contains the cosine multiplies them by k.
+constexpr std::size_t kCosineBits = 1024;
+
+bool too_long(const Rational& x) { return x.numerator().bit_length() > kCosineBits || x.denominator().bit_length() > kCosineBits; }
 
 SpectrumSubject subject_of(const Scheme& scheme, const Row& row) {
   if (row.mask) return mask_subject({"", scheme, {}}, *row.mask);
@@ -27,12 +31,14 @@ SpectrumSubject subject_of(const Scheme& scheme, const Row& row) {
 }
 
 std::string spectrum_fault(const Row& row, const SubdivisionMatrix& matrix) {
+  if (too_long(row.cosine.lo) || too_long(row.cosine.hi)) return "an end of the cosine interval has more than 1024 bits";
   if (row.cosine.hi - row.cosine.lo > kCosineWidth) return "the cosine interval is wider than 2^-200";
   if (!encloses_cosine(row.cosine, row.valence)) return "the interval does not contain cos(2 pi/k)";
   if (row.modes.size() != static_cast<std::size_t>(row.valence / 2) + 1) return "a mode is missing";
+  const auto factors = characteristic_factors(matrix);
   for (std::size_t m = 0; m < row.modes.size(); ++m) {
     const std::size_t n = matrix.size() + (m == 0 && matrix.has_centre ? 1 : 0);
-    const std::string fault = eigenvalue_fault(row.modes[m], characteristic_factors(matrix, static_cast<int>(m)), row.valence, n);
+    const std::string fault = eigenvalue_fault(row.modes[m], factors[m], row.valence, n);
     if (!fault.empty()) return "mode " + std::to_string(m) + ": " + fault;
   }
   return {};
@@ -177,12 +183,14 @@ SpectrumCertificate make_spectrum_certificate(const MasksDocument& masks, const 
 
 bool encloses_cosine(const RationalInterval& interval, int k) {
   HEXACT_EXPECTS(k >= 3);
-  // U_0, U_1, … is a Sturm sequence: it changes sign at x as often as U_{k−1} has zeros greater than x.
+  // U_0, U_1, … is a Sturm sequence: it changes sign at x as often as U_{k−1} has zeros greater than x. At x = p/q the
+  // integers q^j U_j have the same signs, and no fraction needs to be reduced.
   const auto greater_zeros = [k](const Rational& x) {
-    Rational before(0), now(1);  // U_{−1}, U_0
+    const Integer twice = Integer(2) * x.numerator(), square = x.denominator() * x.denominator();
+    Integer before(0), now(1);  // of U_{−1}, U_0
     int changes = 0, sign = 1;
     for (int j = 1; j < k; ++j) {
-      Rational next = Rational(2) * x * now - before;
+      Integer next = twice * now - square * before;
       before = std::move(now);
       now = std::move(next);
       if (now.sign() * sign < 0) ++changes, sign = -sign;

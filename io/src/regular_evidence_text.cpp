@@ -43,7 +43,7 @@ class Reader {
       scanner_.expect_end();
     }
     keyword("smoothing");
-    for (std::size_t n = scanner_.count("weights", 2, kMost); n > 0; --n) out.link.push_back(scanner_.rational({}));
+    for (std::size_t n = index("a number of weights", kMost); n > 0; --n) out.link.push_back(scanner_.rational({}));
     scanner_.expect_end();
     if (!out.link.empty()) out.growth = growth();
     return out;
@@ -72,7 +72,7 @@ class Reader {
     out.bounds.hi = scanner_.rational({});
     scanner_.expect_end();
     keyword("word");
-    for (std::size_t n = scanner_.count("digits", 2, kLongestWord); n > 0; --n) out.word.push_back(static_cast<int>(index("a digit", 1)));
+    for (std::size_t n = index("a number of digits", kLongestWord); n > 0; --n) out.word.push_back(static_cast<int>(index("a digit", 1)));
     scanner_.expect_end();
     std::size_t entries = 0;
     for (std::size_t n = counted("vertices"); n > 0; --n) {
@@ -103,7 +103,7 @@ class Reader {
     scanner_.expect_line("an image");
     out.vertex = index("a vertex", kMost);
     out.digit = static_cast<int>(index("a digit", 1));
-    for (std::size_t n = scanner_.count("weights", 4, kMost); n > 0; --n) {
+    for (std::size_t n = index("a number of weights", kMost); n > 0; --n) {
       const std::size_t v = index("a vertex", kMost);
       out.combination.emplace_back(v, scanner_.rational({}));
     }

@@ -348,8 +348,8 @@ TEST_CASE("hexact-check says what is wrong with a file, and where", "[hexact-che
   CHECK(program::run(folder, "\"$check\" .").status == 3);
   CHECK(program::run(folder, "\"$check\"").status == 2);
   CHECK(program::run(folder, "\"$check\" --nonsense c.cert").status == 2);
-  program::write_bytes(path, "hexact-certificate 1\nfield Q\nplanes 1\n0 0 x 1 0 -\n");
+  program::write_bytes(path, "hexact-certificate 1\nfield Q\nscale 0\nplanes 1\n0 0 x 1 0 -\n");
   const program::Run run = program::run(folder, "\"$check\" --json c.cert");
   CHECK(run.status == 3);
-  CHECK(nlohmann::json::parse(run.out)["error"]["line"] == 4);
+  CHECK(nlohmann::json::parse(run.out)["error"]["line"] == 5);
 }

@@ -123,6 +123,58 @@ TEST_CASE("classical factors over Q(cos 2pi/k)", "[spectrum]") {
   }
 }
 
+TEST_CASE("the polynomials of all modes at once are those of each", "[spectrum]") {
+  for (const SpectrumScheme scheme : {SpectrumScheme::midedge, SpectrumScheme::midedge6, SpectrumScheme::loop,
+                                      SpectrumScheme::catmull_clark, SpectrumScheme::doo_sabin}) {
+    for (const int k : {3, 4, 9, 12}) {
+      const SubdivisionMatrix m = subdivision_matrix(scheme, k, 3);
+      const auto all = characteristic_factors(m);
+      REQUIRE(all.size() == static_cast<std::size_t>(k / 2) + 1);
+      const auto spectra = mode_spectra(m);
+      REQUIRE(spectra.size() == all.size());
+      for (std::size_t mode = 0; mode < all.size(); ++mode) {
+        const auto one = characteristic_factors(m, static_cast<int>(mode));
+        REQUIRE(all[mode].size() == one.size());
+        for (std::size_t i = 0; i < one.size(); ++i) {
+          CHECK(all[mode][i].angle == one[i].angle);
+          CHECK(all[mode][i].coefficients == one[i].coefficients);
+        }
+        const ModeSpectrum alone = mode_spectrum(m, static_cast<int>(mode));
+        REQUIRE(spectra[mode].isolated.size() == alone.isolated.size());
+        for (std::size_t i = 0; i < alone.isolated.size(); ++i) {
+          CHECK(spectra[mode].isolated[i].mode == static_cast<int>(mode));
+          CHECK(spectra[mode].isolated[i].enclosure == alone.isolated[i].enclosure);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a single vertex with weights in all sectors has the eigenvalue sum of w_d cos(2 pi dm/k)", "[spectrum]") {
+  SubdivisionMatrix m;
+  m.valence = 12;
+  m.vertices = {{0, 0}};
+  m.centre_to.resize(1);
+  std::vector<Rational> w(12);
+  for (int d = 0; d <= 6; ++d) w[static_cast<std::size_t>(d)] = w[static_cast<std::size_t>((12 - d) % 12)] = fraction(d * d + 1, 300);
+  for (int d = 0; d < 12; ++d) m.local.push_back({0, 0, d, w[static_cast<std::size_t>(d)]});
+  for (const int mode : {0, 2, 3, 4, 6}) {
+    Rational sum;
+    for (int d = 0; d < 12; ++d) sum += w[static_cast<std::size_t>(d)] * rational_cosine(d * mode, 12).value;
+    const ModeSpectrum s = mode_spectrum(m, mode);
+    REQUIRE(s.isolated.size() == 1);
+    CHECK(s.isolated[0].enclosure == RationalInterval{sum, sum});
+  }
+  for (const int mode : {1, 5}) {
+    const RationalInterval e = mode_spectrum(m, mode).isolated.at(0).enclosure;
+    double sum = 0;
+    for (int d = 0; d < 12; ++d) sum += w[static_cast<std::size_t>(d)].to_double() * std::cos(2 * M_PI * d * mode / 12);
+    CHECK(e.lo.to_double() == Approx(sum));
+  }
+  m.local[1].weight += Rational(1);
+  CHECK_THROWS_AS(mode_spectrum(m, 2), InvalidInput);
+}
+
 TEST_CASE("every eigenvalue of the five schemes is isolated within 2^-100", "[spectrum]") {
   for (const SpectrumScheme scheme : {SpectrumScheme::midedge, SpectrumScheme::midedge6, SpectrumScheme::loop,
                                       SpectrumScheme::catmull_clark, SpectrumScheme::doo_sabin}) {

@@ -23,8 +23,13 @@ struct CharacteristicFactor {
 /// Factors whose product is the characteristic polynomial of the matrix on the vectors with u(s) = e^{2πi ms/k} u(0):
 /// one or two (the second without dependence on c) for each set of vertices that depend on each other.
 /// Throws InvalidInput (NotSymmetric) if a coefficient is no polynomial in c, which mirror images exclude.
-/// Precondition: 0 <= mode <= k/2. Cost: interpolation over about 20 integer matrices per set.
+/// Precondition: 0 <= mode <= k/2. Cost: interpolation over two integer matrices for each vertex of a set and each sector
+/// that it reaches; sets of one vertex need none.
 [[nodiscard]] std::vector<CharacteristicFactor> characteristic_factors(const SubdivisionMatrix& matrix, int mode);
+
+/// Those of the modes 0 … k/2. The modes from 2 on have the same polynomials, each in its own cosine, and mode 1 has them
+/// too unless weights are harmonic: they are found once.
+[[nodiscard]] std::vector<std::vector<CharacteristicFactor>> characteristic_factors(const SubdivisionMatrix& matrix);
 
 /// cos(2π angle/k) where it is rational: at 0, 1/6, 1/4, 1/3 and 1/2 of a turn; then `found` is true.
 struct RationalCosine {
@@ -54,5 +59,8 @@ struct ModeSpectrum {
 /// multiple factors are separated exactly (Yun); the rest is proved by changes of sign at rational ends, with c in an
 /// interval. Cost: milliseconds per mode.
 [[nodiscard]] ModeSpectrum mode_spectrum(const SubdivisionMatrix& matrix, int mode);
+
+/// Those of the modes 0 … k/2, from polynomials that are found once. Cost: O(k) times that of one mode.
+[[nodiscard]] std::vector<ModeSpectrum> mode_spectra(const SubdivisionMatrix& matrix);
 
 }  // namespace hexact
