@@ -197,12 +197,21 @@ int report(const Malformed& e, bool json) {
   return 3;
 }
 
+int report(const TooMuchWork& e, const std::string& file, bool json) {
+  if (json) {
+    std::printf("{\"error\": {\"code\": \"ResourceLimit\", \"message\": %s, \"file\": %s, \"line\": null, \"element\": null}}\n",
+                quoted(e.what()).c_str(), quoted(file).c_str());
+  }
+  std::fprintf(stderr, "hexact-check: %s: %s\n", file.c_str(), e.what());
+  return 4;
+}
+
 constexpr const char* kHelp =
     "hexact-check [--json] CERT [MESH]\n"
     "Verifies every claim of the certificate CERT with exact arithmetic and, given MESH (OBJ or OFF), that it is the\n"
     "correct rounding: the same loops, every coordinate the double nearest to the exact one (ties to even).\n"
     "Exit status: 0 all claims hold; 1 a claim does not hold (the witness is printed); 2 wrong usage;\n"
-    "3 a file cannot be read or is malformed; 4 not enough memory; 5 nothing is refuted and a claim is undecided.\n";
+    "3 a file cannot be read or is malformed; 4 too much memory or work; 5 nothing is refuted and a claim is undecided.\n";
 
 }  // namespace
 }  // namespace check
@@ -224,6 +233,8 @@ int main(int argc, char** argv) {
     return check::run(files, json);
   } catch (const check::Malformed& e) {
     return check::report(e, json);
+  } catch (const check::TooMuchWork& e) {
+    return check::report(e, files[0], json);
   } catch (const std::bad_alloc&) {
     return std::fputs("hexact-check: there is not enough memory\n", stderr), 4;
   }

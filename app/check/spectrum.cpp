@@ -83,6 +83,7 @@ class ModePolynomials {
   // Vertices that depend on each other form a block; the determinant is the product over the blocks.
   void split() {
     std::vector<int> block(n_, -1);
+    std::vector<std::vector<std::size_t>> sets;
     for (std::size_t r = 0; r < n_; ++r) {
       if (block[r] >= 0) continue;
       const std::vector<bool> needs = reach(r, false), used = reach(r, true);
@@ -90,8 +91,46 @@ class ModePolynomials {
       for (std::size_t c = 0; c < n_; ++c) {
         if (c == r || (needs[c] && used[c])) set.push_back(c), block[c] = static_cast<int>(r);
       }
-      blocks_.push_back(determinant(set));
+      expect_feasible(set);
+      sets.push_back(std::move(set));
     }
+    for (const auto& set : sets) blocks_.push_back(determinant(set));
+  }
+  int widest(const std::vector<std::size_t>& set) const {
+    int out = 0;
+    for (const std::size_t r : set) {
+      for (const std::size_t c : set) {
+        for (const auto& wave : entries_[r * n_ + c]) out = std::max(out, std::abs(wave.first));
+      }
+    }
+    return out;
+  }
+  // Denominator and longest numerator of the weights over one denominator; of more than 2^20 bits not in full.
+  std::size_t bits(const std::vector<std::size_t>& set) const {
+    constexpr std::size_t kEnough = std::size_t{1} << 20;
+    const auto length = [](const mpz_class& x) { return x == 0 ? 0 : mpz_sizeinbase(x.get_mpz_t(), 2); };
+    mpz_class denominator = 1;
+    std::size_t longest = 0;
+    for (const std::size_t r : set) {
+      for (const std::size_t c : set) {
+        for (const auto& [exponent, w] : entries_[r * n_ + c]) {
+          if (length(denominator) + length(w.get_den()) > kEnough) return kEnough;
+          denominator = lcm(denominator, w.get_den());
+          longest = std::max(longest, length(w.get_num()));
+        }
+      }
+    }
+    return length(denominator) + longest;
+  }
+  // n^4 products of integers at each of nw + 1 nodes, and divided differences, in words: the bound of docs/spectrum.md.
+  void expect_feasible(const std::vector<std::size_t>& set) const {
+    const auto n = static_cast<double>(set.size());
+    const int w = widest(set), degree = w * static_cast<int>(set.size());
+    const std::size_t node = mpz_sizeinbase(mpz_class(degree + 1).get_mpz_t(), 2);
+    const double words = n * static_cast<double>(bits(set) + 2 * static_cast<std::size_t>(w) * node) / 64 + 1;
+    if ((n * n * n * n * (degree + 1.0) + 8 * (n + 1) * degree * degree) * words <= 1 << 30) return;
+    throw TooMuchWork("the characteristic polynomial of " + std::to_string(set.size()) + " rows that depend on each other over " +
+                      std::to_string(w) + " sectors is beyond the bound of work");
   }
   std::vector<bool> reach(std::size_t from, bool backwards) const {
     std::vector<bool> seen(n_);
@@ -109,13 +148,7 @@ class ModePolynomials {
   }
   // Newton's interpolation in c through z = 2, 3, ...
   std::vector<Poly> determinant(const std::vector<std::size_t>& set) {
-    int widest = 0;
-    for (const std::size_t r : set) {
-      for (const std::size_t c : set) {
-        for (const auto& wave : entries_[r * n_ + c]) widest = std::max(widest, std::abs(wave.first));
-      }
-    }
-    const int degree = widest * static_cast<int>(set.size());
+    const int degree = widest(set) * static_cast<int>(set.size());
     std::vector<mpq_class> nodes;
     std::vector<Poly> table;  // divided differences, by node; one entry per power of X
     for (int i = 0; i <= degree; ++i) {

@@ -16,6 +16,11 @@
 
 namespace check {
 
+// A matrix whose polynomials would take minutes; exit 4.
+struct TooMuchWork : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 struct ListedValue {
   mpq_class lo, hi;
   int multiplicity;

@@ -75,6 +75,40 @@ std::vector<CosinePolynomial> linear_factor(const Laurent& x) {
   return {std::move(constant), {Rational(1)}};
 }
 
+/// The length of the weights of a set over one denominator; what is longer than 2^20 bits is not looked at in full.
+std::size_t bits_of(const ModeMatrix& m, const std::vector<std::size_t>& set) {
+  constexpr std::size_t kEnough = std::size_t{1} << 20;
+  Integer denominator(1);
+  std::size_t longest = 0;
+  for (const std::size_t r : set) {
+    for (const std::size_t c : set) {
+      for (const auto& [exponent, w] : m.at(r, c)) {
+        if (denominator.bit_length() + w.denominator().bit_length() > kEnough) return kEnough;
+        denominator = lcm(denominator, w.denominator());
+        longest = std::max(longest, w.numerator().bit_length());
+      }
+    }
+  }
+  return denominator.bit_length() + longest;
+}
+
+/// About the number of products of words that the polynomial of a set costs: n⁴ of integers at each of nw + 1 nodes, and
+/// divided differences of fractions.
+double work_of(const ModeMatrix& m, const std::vector<std::size_t>& set) {
+  const auto n = static_cast<double>(set.size());
+  const int widest = largest_exponent(m, set), degree = static_cast<int>(set.size()) * widest;
+  const auto bits = static_cast<double>(bits_of(m, set) + 2 * static_cast<std::size_t>(widest) * Integer(degree + 1).bit_length());
+  return (n * n * n * n * (degree + 1.0) + 8 * (n + 1) * degree * degree) * (n * bits / 64 + 1);
+}
+
+/// The same in hexact-check, so that both programs refuse the same matrices: minutes of work for a small file.
+void expect_feasible(const ModeMatrix& m, const std::vector<std::size_t>& set) {
+  constexpr double kMost = 1 << 30;
+  if (work_of(m, set) <= kMost) return;
+  throw ResourceLimit("the characteristic polynomial of " + std::to_string(set.size()) + " rows that depend on each other over " +
+                      std::to_string(largest_exponent(m, set)) + " sectors is beyond the bound of work");
+}
+
 /// Coefficients as polynomials in c = (z + 1/z)/2 by interpolation at z = 2, 3, …
 std::vector<CosinePolynomial> interpolated_factor(const ModeMatrix& m, const std::vector<std::size_t>& set) {
   const int degree = static_cast<int>(set.size()) * largest_exponent(m, set);
@@ -136,8 +170,10 @@ void add_split(std::vector<CharacteristicFactor>& out, int angle, const std::vec
 
 std::vector<CharacteristicFactor> characteristic_factors(const SubdivisionMatrix& matrix, int mode) {
   const ModeMatrix m = mode_matrix(matrix, mode);
+  const auto sets = dependent_sets(m);
+  for (const auto& set : sets) expect_feasible(m, set);
   std::vector<CharacteristicFactor> out;
-  for (const auto& set : dependent_sets(m)) {
+  for (const auto& set : sets) {
     add_split(out, m.angle, set.size() == 1 ? linear_factor(m.at(set[0], set[0])) : interpolated_factor(m, set));
   }
   return out;

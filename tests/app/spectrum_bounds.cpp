@@ -80,3 +80,24 @@ TEST_CASE("a dense mask of a face with many corners", "[spectrum][certificate][m
   const std::string text = text_of_masks(weights(SpectrumScheme::doo_sabin, kCorners, w));
   CHECK(checkers.of(text).claims.at("ordering=120") == "proved");
 }
+
+TEST_CASE("matrices whose polynomials would take minutes are refused by both checkers before the work", "[spectrum][certificate][masks]") {
+  const Checkers checkers;
+  Dice dice(3);
+  const auto status = [&](int k, std::size_t n, const Rational& factor) {
+    MasksDocument masks = random_blocks(k, n, dice);
+    for (auto& block : masks.masks[0].blocks) {
+      for (Rational& w : block) w *= factor;
+    }
+    SpectrumRow row;  // all that is said of each mode is that its eigenvalues are small
+    row.valence = k;
+    for (int m = 0; 2 * m <= k; ++m) row.modes.push_back({{}, static_cast<int>(n), Rational(1000)});
+    return checkers.of(both_orderings(masks, row)).status;
+  };
+  CHECK(status(3, 6, Rational(1)) == 1);
+  CHECK(status(9, 4, Rational(1)) == 1);
+  CHECK(status(7, 48, Rational(1)) == 4);
+  CHECK(status(30, 16, Rational(1)) == 4);
+  CHECK(status(3, 10, Rational(1) / (Rational(1).scaled(60000) + Rational(1))) == 4);  // long weights
+  CHECK(status(900, 4, Rational(1)) == 4);
+}

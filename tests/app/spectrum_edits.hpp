@@ -73,6 +73,8 @@ inline Outcome by_library(const std::string& text) {
     }
   } catch (const ParseError&) {
     return {3, {}};
+  } catch (const ResourceLimit&) {
+    return {4, {}};
   }
   return out;
 }

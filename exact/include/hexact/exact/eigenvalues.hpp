@@ -23,6 +23,7 @@ struct CharacteristicFactor {
 /// Factors whose product is the characteristic polynomial of the matrix on the vectors with u(s) = e^{2πi ms/k} u(0):
 /// one or two (the second without dependence on c) for each set of vertices that depend on each other.
 /// Throws InvalidInput (NotSymmetric) if a coefficient is no polynomial in c, which mirror images exclude.
+/// Throws ResourceLimit if a set costs more than about 2^30 products of words (docs/spectrum.md, Limits).
 /// Precondition: 0 <= mode <= k/2. Cost: interpolation over two integer matrices for each vertex of a set and each sector
 /// that it reaches; sets of one vertex need none.
 [[nodiscard]] std::vector<CharacteristicFactor> characteristic_factors(const SubdivisionMatrix& matrix, int mode);
