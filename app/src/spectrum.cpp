@@ -223,7 +223,7 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   const Request request = options.masks.empty() ? scheme_request(options) : masks_request(options);
   const std::vector<SpectrumSubject>& subjects = request.subjects;
   if (!options.picture.empty() && subjects.size() != 1) throw UsageError("--picture shows one valence");
-  const std::vector<SpectrumRow> rows = spectrum_rows(subjects);
+  const std::vector<SpectrumRow> rows = spectrum_rows(subjects, common.work.part(0, 0.9));
   Outcome outcome;
   Verdict all = Verdict::proved;
   nlohmann::ordered_json table = nlohmann::ordered_json::array();
@@ -240,10 +240,12 @@ Outcome spectrum(const SpectrumOptions& options, const Common& common) {
   outcome.report["rows"] = std::move(table);
   std::optional<RegularSmoothness> regular;
   if (options.regular) {
+    common.work.check();
     regular = regular_smoothness(*request.scheme);
     outcome.report["regular"] = regular_json(*regular);
     outcome.text += regular_text(*regular);
   }
+  common.work.report(0.9);
   if (!options.matrix.empty()) write_subdivision_matrices(options.matrix, request.name, subjects);
   if (!options.picture.empty()) write_ring_picture(options.picture, subjects.front(), rows.front());
   if (!options.certificate.empty()) write_certificate(outcome, request, rows, regular, options);

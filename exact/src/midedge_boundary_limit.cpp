@@ -54,10 +54,11 @@ NetPlaces net_places(const Pattern& pattern) {
 }
 
 /// Whether a power of the matrix has only positive entries in column c.
-bool reaches_everywhere(const Matrix& m, std::size_t c) {
+bool reaches_everywhere(const Matrix& m, std::size_t c, const ProgressPart& progress) {
   std::vector<char> positive(m.size(), 0);
   positive[c] = 1;
   for (std::size_t power = 0; power < m.size(); ++power) {
+    progress.check();
     std::vector<char> next(m.size(), 0);
     for (std::size_t r = 0; r < m.size(); ++r) {
       for (std::size_t i = 0; i < m.size() && next[r] == 0; ++i) next[r] = positive[i] != 0 && m[r][i].sign() > 0 ? 1 : 0;
@@ -69,9 +70,10 @@ bool reaches_everywhere(const Matrix& m, std::size_t c) {
 }
 
 /// Solves A x = b and A y = c for an M-matrix A, whose pivots on the diagonal are positive. Columns b and c stand behind A.
-std::array<std::vector<Rational>, 2> solved(std::vector<SparseRow> a) {
+std::array<std::vector<Rational>, 2> solved(std::vector<SparseRow> a, const ProgressPart& progress) {
   const auto n = static_cast<std::uint32_t>(a.size());
   for (std::uint32_t i = 0; i < n; ++i) {
+    progress.check();
     HEXACT_INVARIANT(a[i].count(i) > 0 && a[i].at(i).sign() > 0);
     const Rational inverse = Rational(1) / a[i].at(i);
     for (std::uint32_t r = i + 1; r < n; ++r) {
@@ -87,6 +89,7 @@ std::array<std::vector<Rational>, 2> solved(std::vector<SparseRow> a) {
   }
   std::array<std::vector<Rational>, 2> x{std::vector<Rational>(n), std::vector<Rational>(n)};
   for (std::uint32_t i = n; i-- > 0;) {
+    progress.check();
     for (std::uint32_t side = 0; side < 2; ++side) {
       Rational rest;
       for (auto at = a[i].upper_bound(i); at != a[i].end(); ++at) {
@@ -108,7 +111,7 @@ std::vector<std::uint32_t> elimination_order(const std::vector<SparseRow>& a) {
   return order;
 }
 
-std::array<std::vector<Rational>, 2> solved_in_order(const std::vector<SparseRow>& a) {
+std::array<std::vector<Rational>, 2> solved_in_order(const std::vector<SparseRow>& a, const ProgressPart& progress) {
   const std::vector<std::uint32_t> order = elimination_order(a);
   const auto n = static_cast<std::uint32_t>(a.size());
   std::vector<std::uint32_t> place(a.size());
@@ -117,7 +120,7 @@ std::array<std::vector<Rational>, 2> solved_in_order(const std::vector<SparseRow
   for (std::uint32_t r = 0; r < n; ++r) {
     for (const auto& [c, value] : a[r]) turned[place[r]][c < n ? place[c] : c] = value;
   }
-  const auto there = solved(std::move(turned));
+  const auto there = solved(std::move(turned), progress);
   std::array<std::vector<Rational>, 2> x{std::vector<Rational>(n), std::vector<Rational>(n)};
   for (std::uint32_t i = 0; i < n; ++i) {
     for (std::size_t side = 0; side < 2; ++side) x[side][i] = there[side][place[i]];
@@ -139,9 +142,10 @@ Rational take_shared(std::vector<Rational>& row, std::span<const std::uint32_t> 
   return shared;
 }
 
-void check_weights(const Matrix& m, const std::vector<Rational>& w) {
+void check_weights(const Matrix& m, const std::vector<Rational>& w, const ProgressPart& progress) {
   Rational sum;
   for (std::size_t c = 0; c < m.size(); ++c) {
+    progress.check();
     Rational image;
     for (std::size_t r = 0; r < m.size(); ++r) {
       if (!m[r][c].is_zero()) image += w[r] * m[r][c];
@@ -207,13 +211,14 @@ std::optional<MidedgeBoundaryNet> midedge_boundary_net(const MidedgeMap& map, st
   return net;
 }
 
-Matrix midedge_boundary_operator(const Pattern& pattern) {
+Matrix midedge_boundary_operator(const Pattern& pattern, const ProgressPart& progress) {
   const MidedgeMap coarse = detail::midedge_patch(pattern), fine = coarse.double_stepped();
   const auto from = midedge_boundary_net(coarse, 0), to = midedge_boundary_net(fine, 0);
   HEXACT_INVARIANT(from && to && from->pattern == to->pattern);
   const std::size_t n = from->vertices.size();
   Matrix m(n, std::vector<Rational>(n));
   for (std::size_t c = 0; c < n; c += 3) {  // three columns at a time, one in each coordinate
+    progress.check();
     PointArray<Rational> unit(coarse.vertex_count());
     unit[from->vertices[c]].x = Rational(1);
     if (c + 1 < n) unit[from->vertices[c + 1]].y = Rational(1);
@@ -238,11 +243,11 @@ Matrix midedge_boundary_operator(const Pattern& pattern) {
 /// weights that vertex r takes from these: what is left in B couples neighbouring sectors, but for corners next to boundary
 /// edges. w M = w becomes w (1 − B) = (w · u) t + (w · v) q. With (1 − B)^T y = t and (1 − B)^T z = q, w is a y + b z for
 /// a = w · u = a y · u + b z · u.
-std::vector<Rational> midedge_boundary_weights(const Pattern& pattern) {
+std::vector<Rational> midedge_boundary_weights(const Pattern& pattern, const ProgressPart& progress) {
   HEXACT_EXPECTS(touches_boundary(pattern) && !stands_alone(pattern));
-  const Matrix m = midedge_boundary_operator(pattern);
+  const Matrix m = midedge_boundary_operator(pattern, progress);
   const NetPlaces places = net_places(pattern);
-  if (!reaches_everywhere(m, places.corners[0])) throw NumericalFailure("the limit at the boundary could not be proved");
+  if (!reaches_everywhere(m, places.corners[0], progress)) throw NumericalFailure("the limit at the boundary could not be proved");
   const auto n = static_cast<std::uint32_t>(m.size());
   std::vector<SparseRow> a(n);
   std::vector<Rational> u;
@@ -257,7 +262,7 @@ std::vector<Rational> midedge_boundary_weights(const Pattern& pattern) {
   }
   for (const std::uint32_t c : places.corners) a[c][n] = Rational(1);
   for (const std::uint32_t c : places.opposites) a[c][n + 1] = Rational(1);
-  const auto [y, z] = solved_in_order(a);
+  const auto [y, z] = solved_in_order(a, progress);
   const Rational first = dot(z, u), second = Rational(1) - dot(y, u);
   std::vector<Rational> w(n);
   Rational sum;
@@ -266,14 +271,14 @@ std::vector<Rational> midedge_boundary_weights(const Pattern& pattern) {
     sum += w[i];
   }
   for (Rational& x : w) x = x / sum;
-  check_weights(m, w);
+  check_weights(m, w, progress);
   return w;
 }
 
 void MidedgeBoundaryLimits::prepare(Pattern pattern) {
   std::rotate(pattern.begin(), pattern.begin() + static_cast<std::ptrdiff_t>(first_corner(pattern)), pattern.end());
   if (weights_.count(pattern) > 0 || net_places(pattern).size > kLargestNet) return;
-  std::vector<Rational> weights = midedge_boundary_weights(pattern);
+  std::vector<Rational> weights = midedge_boundary_weights(pattern, progress_);
   weights_.emplace(std::move(pattern), std::move(weights));
 }
 

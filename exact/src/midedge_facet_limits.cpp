@@ -73,19 +73,23 @@ struct Pending {
 /// Limits of facets, level by level.
 class LimitSearch {
  public:
-  LimitSearch(const MidedgeLimitPlan& plan, std::size_t count) : plan_(plan), inner_(plan.rule), results_(count) {}
+  LimitSearch(const MidedgeLimitPlan& plan, std::size_t count, const ProgressPart& progress)
+      : plan_(plan), progress_(progress), inner_(plan.rule), at_boundary_(progress), results_(count) {}
 
   std::vector<FacetLimit> run(const Level& level, std::span<const std::uint32_t> facets) {
     Pending all{{facets.begin(), facets.end()}, std::vector<std::uint32_t>(facets.size())};
     std::iota(all.slots.begin(), all.slots.end(), 0u);
+    progress_.report(0);
     const Pending waiting = settle(level, all);
     for (std::size_t begin = 0; begin < waiting.facets.size(); begin += kBatch) {
       const auto batch = [&](const std::vector<std::uint32_t>& list) {
         return std::vector<std::uint32_t>(list.begin() + static_cast<std::ptrdiff_t>(begin),
                                           list.begin() + static_cast<std::ptrdiff_t>(std::min(begin + kBatch, list.size())));
       };
+      progress_.report(static_cast<double>(begin) / static_cast<double>(waiting.facets.size()));
       refine(level, {batch(waiting.facets), batch(waiting.slots)});
     }
+    progress_.report(1);
     return std::move(results_);
   }
 
@@ -94,6 +98,7 @@ class LimitSearch {
   void refine(const Level& level, Pending pending) {
     std::optional<Level> part;
     for (unsigned steps = 0; !pending.facets.empty() && !given_up(steps); steps += 2) {
+      progress_.check();
       part = stepped_part(part ? *part : level, pending.facets);
       std::iota(pending.facets.begin(), pending.facets.end(), 0u);
       pending = settle(*part, pending);
@@ -105,6 +110,7 @@ class LimitSearch {
   [[nodiscard]] Level stepped_part(const Level& level, std::span<const std::uint32_t> facets) const;
 
   const MidedgeLimitPlan plan_;
+  const ProgressPart progress_;
   MidedgeLimits inner_;
   MidedgeBoundaryLimits at_boundary_;
   std::vector<FacetLimit> results_;
@@ -146,6 +152,7 @@ Pending LimitSearch::settle(const Level& level, const Pending& pending) {
 }
 
 FacetLimit LimitSearch::limit(const Level& level, std::uint32_t f, Stage stage) const {
+  progress_.check();
   switch (stage) {
     case Stage::inner:
       return inner_(level, f);
@@ -215,18 +222,18 @@ std::uint32_t middle_of_fan(const MidedgeMap& map, std::uint32_t start, const Ra
   return fan.size() % 2 == 1 ? map.facet(fan[half]) : next.of_edge[edge[fan[half]]];
 }
 
-std::vector<Point> closed_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+std::vector<Point> closed_vertex_limits(const Level& level, const MidedgeLimitPlan& plan, const ProgressPart& progress) {
   std::vector<std::uint32_t> facets(level.map.vertex_count());
   std::iota(facets.begin(), facets.end(), static_cast<std::uint32_t>(level.map.facet_count()));
   std::vector<Point> points;
-  for (auto& limit : midedge_facet_limits(midedge_step(level, plan.rule, MidedgeBoundary::close), plan, facets)) {
+  for (auto& limit : midedge_facet_limits(midedge_step(level, plan.rule, MidedgeBoundary::close), plan, facets, progress)) {
     HEXACT_INVARIANT(limit.has_value());
     points.push_back(std::move(limit->point));
   }
   return points;
 }
 
-std::vector<Point> dual_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+std::vector<Point> dual_vertex_limits(const Level& level, const MidedgeLimitPlan& plan, const ProgressPart& progress) {
   const MidedgeMap& map = level.map;
   const Level next = midedge_double_step(level, plan.rule);
   const Successors became = successors(map, next.map);
@@ -243,7 +250,7 @@ std::vector<Point> dual_vertex_limits(const Level& level, const MidedgeLimitPlan
     }
     slot_of_vertex.push_back(slot_of_facet[f]);
   }
-  const std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets);
+  const std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets, progress);
   std::vector<Point> points;
   for (std::uint32_t v = 0; v < map.vertex_count(); ++v) {
     const FacetLimit& limit = limits[slot_of_vertex[v]];
@@ -275,7 +282,7 @@ void contract_boundary_loops(const Level& level, std::vector<Point>& points) {
   }
 }
 
-std::vector<Point> close_vertex_limits(const Level& level, const MidedgeLimitPlan& plan) {
+std::vector<Point> close_vertex_limits(const Level& level, const MidedgeLimitPlan& plan, const ProgressPart& progress) {
   const MidedgeMap& map = level.map;
   const Level next = midedge_step(level, plan.rule, MidedgeBoundary::close);
   const Successors became = successors(map, next.map);
@@ -287,7 +294,7 @@ std::vector<Point> close_vertex_limits(const Level& level, const MidedgeLimitPla
     facets.push_back(became.of_vertex[v]);
   }
   std::vector<Point> points(map.vertex_count());
-  std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets);
+  std::vector<FacetLimit> limits = midedge_facet_limits(next, plan, facets, progress);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     HEXACT_INVARIANT(limits[i].has_value());
     points[vertices[i]] = std::move(limits[i]->point);
@@ -299,18 +306,23 @@ std::vector<Point> close_vertex_limits(const Level& level, const MidedgeLimitPla
 }  // namespace
 
 std::vector<std::optional<MidedgeLimit>> midedge_facet_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
-                                                              std::span<const std::uint32_t> facets) {
-  return LimitSearch(plan, facets.size()).run(level, facets);
+                                                              std::span<const std::uint32_t> facets, const ProgressPart& progress) {
+  return LimitSearch(plan, facets.size(), progress).run(level, facets);
 }
 
-std::vector<Point3<Rational>> midedge_vertex_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan) {
-  if (level.map.closed()) return closed_vertex_limits(level, plan);
-  if (plan.boundary == MidedgeBoundary::dual) return dual_vertex_limits(level, plan);
-  if (plan.boundary == MidedgeBoundary::close) return close_vertex_limits(level, plan);
+void require_vertex_limits(const MidedgeMap& map, MidedgeBoundary boundary) {
+  if (map.closed() || boundary != MidedgeBoundary::drop) return;
   std::uint32_t h = 0;
-  while (level.map.twin(h) != kNoTwin) ++h;
+  while (map.twin(h) != kNoTwin) ++h;
   throw InvalidInput("HasBoundary", "has a facet on one side only: under the policy drop nothing is known of the limits of boundary vertices; "
-                     "use dual or close", edge_name(level.map.origin(h), level.map.target(h)));
+                     "use dual or close", edge_name(map.origin(h), map.target(h)));
+}
+
+std::vector<Point3<Rational>> midedge_vertex_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
+                                                    const ProgressPart& progress) {
+  require_vertex_limits(level.map, plan.boundary);
+  if (level.map.closed()) return closed_vertex_limits(level, plan, progress);
+  return plan.boundary == MidedgeBoundary::dual ? dual_vertex_limits(level, plan, progress) : close_vertex_limits(level, plan, progress);
 }
 
 }  // namespace hexact

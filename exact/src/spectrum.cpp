@@ -6,6 +6,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 
 namespace hexact {
 namespace {
@@ -173,10 +174,15 @@ SpectrumRow spectrum_row(const SpectrumSubject& subject) {
   return row;
 }
 
-std::vector<SpectrumRow> spectrum_rows(const std::vector<SpectrumSubject>& subjects) {
+std::vector<SpectrumRow> spectrum_rows(const std::vector<SpectrumSubject>& subjects, const ProgressPart& progress) {
   std::vector<SpectrumRow> rows(subjects.size());
+  std::atomic<std::size_t> done{0};
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, rows.size(), 1), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) rows[i] = spectrum_row(subjects[i]);
+    for (std::size_t i = range.begin(); i != range.end(); ++i) {
+      progress.check();
+      rows[i] = spectrum_row(subjects[i]);
+      progress.report(static_cast<double>(++done) / static_cast<double>(rows.size()));
+    }
   });
   return rows;
 }

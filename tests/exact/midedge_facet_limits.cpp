@@ -262,10 +262,31 @@ TEST_CASE("thousands of facets that have to be refined further each have their o
 TEST_CASE("what cannot be limited is refused", "[midedge]") {
   const Level level = grid(4, 3, wave);
   CHECK(refusal([&] { (void)midedge_vertex_limits(level, {MidedgeRule::simple, MidedgeBoundary::drop}); }) == "HasBoundary edge 0-1");
+  CHECK(refusal([&] { require_vertex_limits(level.map, MidedgeBoundary::drop); }) == "HasBoundary edge 0-1");
+  CHECK_NOTHROW(require_vertex_limits(level.map, MidedgeBoundary::close));
+  CHECK_NOTHROW(require_vertex_limits(golden_mesh("cube").map, MidedgeBoundary::drop));
   const Level fan = open_samples().at("fan of 4");
   for (const MidedgeBoundary policy : kPolicies) {
     CHECK(refusal([&] { (void)limits_of(fan, {MidedgeRule::six_point, policy, 8}, 4); }).starts_with("ResourceLimit limit points need further steps"));
   }
+}
+
+TEST_CASE("limits tell how far they are and end when they are asked to", "[midedge]") {
+  Progress whole, ended;
+  ended.cancel();
+  const Level level = grid(4, 3, wave);
+  std::vector<std::uint32_t> facets(12);
+  std::iota(facets.begin(), facets.end(), 0u);
+  for (const MidedgeBoundary policy : kPolicies) {
+    for (const MidedgeRule rule : kRules) {
+      CHECK_THROWS_AS(midedge_facet_limits(level, {rule, policy}, facets, ProgressPart(ended)), Cancelled);
+      CHECK_THROWS_AS(midedge_vertex_limits(level, {rule, policy}, ProgressPart(ended)), Cancelled);
+    }
+  }
+  CHECK_THROWS_AS(midedge_boundary_weights(midedge_boundary_pattern(level.map, 0), ProgressPart(ended)), Cancelled);
+  CHECK(ended.fraction() == 0);
+  (void)midedge_facet_limits(level, {}, facets, ProgressPart(whole));
+  CHECK(whole.fraction() == 1);
 }
 
 TEST_CASE("limits of open meshes do not depend on the number of threads", "[midedge]") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hexact/exact/midedge.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <cstdint>
 #include <map>
@@ -42,7 +43,8 @@ struct MidedgeBoundaryNet {
 /// The double step of the six-point rule on such a net: row r has the weights of the net's vertices in vertex r of the
 /// net one double step later. Taken from `corner_points` on unit data. Rows are non-negative and add up to 1.
 /// Cost: O(n²) rational operations for n vertices.
-[[nodiscard]] std::vector<std::vector<Rational>> midedge_boundary_operator(const MidedgeBoundaryPattern& pattern);
+[[nodiscard]] std::vector<std::vector<Rational>> midedge_boundary_operator(const MidedgeBoundaryPattern& pattern,
+                                                                           const ProgressPart& progress = {});
 
 /// The left eigenvector w of that operator M for the eigenvalue 1, with sum 1: under further double steps all points of
 /// the net tend to w · P.
@@ -51,8 +53,8 @@ struct MidedgeBoundaryNet {
 /// matrix M with M^p ≥ ε in one column contracts the range of every coordinate by 1 − ε in p steps, so M^n tends to a
 /// matrix of equal rows w; w M = w, and w is the only such row of sum 1. The linear equations are solved over Q and the
 /// solution is inserted. Cost: elimination in a band along the facet's corners; numbers of O(n) digits for n vertices.
-/// Precondition: the facet touches the boundary and does not stand alone.
-[[nodiscard]] std::vector<Rational> midedge_boundary_weights(const MidedgeBoundaryPattern& pattern);
+/// Precondition: the facet touches the boundary and does not stand alone. Throws Cancelled between rows.
+[[nodiscard]] std::vector<Rational> midedge_boundary_weights(const MidedgeBoundaryPattern& pattern, const ProgressPart& progress = {});
 
 /// Limits of facets at the boundary under double steps of the six-point rule, one row of weights for each pattern.
 class MidedgeBoundaryLimits {
@@ -60,13 +62,17 @@ class MidedgeBoundaryLimits {
   /// Nets of more vertices get no limit: exact elimination over 1014 takes 24 s.
   static constexpr std::size_t kLargestNet = 1024;
 
-  /// Computes the weights of a pattern, turned or not, unless they are known or the net is too large.
+  /// `progress` is asked whether to go on, nothing is reported to it.
+  explicit MidedgeBoundaryLimits(const ProgressPart& progress = {}) : progress_(progress) {}
+
+  /// Computes the weights of a pattern, turned or not, unless they are known or the net is too large. Throws Cancelled.
   void prepare(MidedgeBoundaryPattern pattern);
   /// Where facet f goes, or nothing where it has no net or too large a one. Precondition: its pattern has been prepared.
   /// May be called from several threads.
   [[nodiscard]] std::optional<Point3<Rational>> operator()(const MidedgeLevel<Rational>& level, std::uint32_t f) const;
 
  private:
+  ProgressPart progress_;
   std::map<MidedgeBoundaryPattern, std::vector<Rational>> weights_;
 };
 

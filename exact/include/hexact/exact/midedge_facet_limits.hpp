@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hexact/exact/midedge_limit.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +31,10 @@ struct MidedgeLimitPlan {
 /// Precondition: different facets of the level. The result does not depend on the number of threads.
 /// Throws ResourceLimit where further steps would make more than `most_facets` facets, or under `close` take more than 200
 /// because a facet has more boundary vertices with two edges in a row; then the simple rule gives the mean without normal.
+/// Throws Cancelled between facets, double steps, and rows of an elimination.
 [[nodiscard]] std::vector<std::optional<MidedgeLimit>> midedge_facet_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
-                                                                           std::span<const std::uint32_t> facets);
+                                                                           std::span<const std::uint32_t> facets,
+                                                                           const ProgressPart& progress = {});
 
 /// Where every vertex of a level goes. An inner vertex: to the limit of the facet that the next step makes of it.
 /// A boundary vertex with the facets f1 … fm in its open fan:
@@ -40,7 +43,12 @@ struct MidedgeLimitPlan {
 /// - `close`: to the mean of its boundary loop. The loop of a level consists of the middles of the one before, which have
 ///   the same mean and draw together: the limit of a boundary loop is a point.
 /// - `drop`: InvalidInput (HasBoundary, edge).
-/// Throws ResourceLimit as above, and where a facet at the boundary has too large a net.
-[[nodiscard]] std::vector<Point3<Rational>> midedge_vertex_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan);
+/// Throws ResourceLimit as above, and where a facet at the boundary has too large a net; Cancelled as above.
+[[nodiscard]] std::vector<Point3<Rational>> midedge_vertex_limits(const MidedgeLevel<Rational>& level, const MidedgeLimitPlan& plan,
+                                                                  const ProgressPart& progress = {});
+
+/// Throws InvalidInput (HasBoundary, edge) where boundary vertices have no limits: open meshes under `drop`. All later levels
+/// are open if this one is.
+void require_vertex_limits(const MidedgeMap& map, MidedgeBoundary boundary);
 
 }  // namespace hexact

@@ -5,6 +5,7 @@
 #include "hexact/exact/eigenvalues.hpp"
 #include "hexact/exact/subdivision_matrix.hpp"
 #include "hexact/exact/verdict.hpp"
+#include "hexact/kernel/progress.hpp"
 
 #include <optional>
 #include <string>
@@ -42,8 +43,8 @@ struct SpectrumRow {
 /// The ordering alone, from the spectra of the modes 0 … k/2; sets `subdominant` and `next` too.
 void decide_ordering(SpectrumRow& row);
 
-/// Rows in parallel; the result does not depend on the number of threads.
-[[nodiscard]] std::vector<SpectrumRow> spectrum_rows(const std::vector<SpectrumSubject>& subjects);
+/// Rows in parallel; the result does not depend on the number of threads. Throws Cancelled between rows.
+[[nodiscard]] std::vector<SpectrumRow> spectrum_rows(const std::vector<SpectrumSubject>& subjects, const ProgressPart& progress = {});
 
 /// refuted if any part of the row is, else undecided if any is, else proved.
 [[nodiscard]] Verdict overall(const SpectrumRow& row) noexcept;
