@@ -157,6 +157,19 @@ float narrowed(double value, const char* element, std::size_t number) {
   return rounded;
 }
 
+namespace {
+
+void check_texture(const std::vector<Point3<double>>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto& p = values[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw InvalidInput("NotRepresentable", "a texture coordinate is beyond the range of a double", "texture coordinate " + std::to_string(i));
+    }
+  }
+}
+
+}  // namespace
+
 std::string mesh_text(Format format, const MeshView& mesh, const MeshWriteOptions& options) {
   for (std::size_t v = 0; v < mesh.points.size(); ++v) {
     const auto& p = mesh.points[v];
@@ -164,6 +177,7 @@ std::string mesh_text(Format format, const MeshView& mesh, const MeshWriteOption
       throw InvalidInput("NotRepresentable", "a coordinate is beyond the range of a double", "vertex " + std::to_string(v));
     }
   }
+  if (mesh.attributes != nullptr) check_texture(mesh.attributes->texture.values);
   switch (format) {
     case Format::obj: return obj_text(mesh, options);
     case Format::off: return off_text(mesh, options);

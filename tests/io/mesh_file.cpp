@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <random>
 
 using namespace hexact;
@@ -214,6 +215,27 @@ TEST_CASE("PLY: texture coordinates of corners and of vertices", "[io]") {
   CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 5 1 2 3 4 5\n")).element == "facet 0");
   CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 4 1 2 3 4\n")).element == "facet 0");
   CHECK(error_of(Format::ply, replaced(lists, "3 2 0 1\n", "3 2 0 1 6 1 2 3 4 nan 6\n")).element == "facet 0");
+}
+
+TEST_CASE("texture coordinates that are no numbers are not written", "[io]") {
+  FacetLoops facets;
+  add_facet(facets, {0, 1, 2});
+  const std::vector<Point3<double>> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  MeshAttributes<double> attributes;
+  attributes.texture = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}};
+  for (const Format format : {Format::obj, Format::ply, Format::ply_ascii}) {
+    CHECK_NOTHROW(io::mesh_text(format, {points, facets, {}, &attributes}, {}));
+    for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+      MeshAttributes<double> broken = attributes;
+      broken.texture.values[1].y = bad;
+      try {
+        (void)io::mesh_text(format, {points, facets, {}, &broken}, {});
+        FAIL("written");
+      } catch (const InvalidInput& refusal) {
+        CHECK(std::string(refusal.what()).find("texture coordinate 1") != std::string::npos);
+      }
+    }
+  }
 }
 
 TEST_CASE("OFF: further columns, comments, colours", "[io]") {
