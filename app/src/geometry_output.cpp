@@ -5,6 +5,7 @@
 #include "hexact/exact/rounded_attributes.hpp"
 #include "hexact/exact/rounding.hpp"
 
+#include <cmath>
 #include <optional>
 
 namespace hexact::app {
@@ -78,6 +79,12 @@ WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<dou
     throw UsageError("doubles have no exact planes; write a mesh, or use another --arithmetic");
   }
   return write_mesh_format(output, soup, progress);
+}
+
+double finite_product(const Point3<double>& n, const Point3<double>& p) {
+  const double offset = n.x * p.x + n.y * p.y + n.z * p.z;
+  if (!std::isfinite(offset)) throw ResourceLimit("the offset of a plane is beyond the finite doubles");
+  return offset;
 }
 
 }  // namespace hexact::app

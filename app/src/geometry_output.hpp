@@ -37,4 +37,7 @@ WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<Qua
 /// for infinite coordinates.
 WrittenGeometry write_geometry(const OutputChoice& output, const PolygonSoup<double>& soup, const ProgressPart& progress = {});
 
+/// The offset n · p of the plane with normal n through p. Throws ResourceLimit where it is beyond the finite doubles.
+[[nodiscard]] double finite_product(const Point3<double>& n, const Point3<double>& p);
+
 }  // namespace hexact::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "limit_points_output.hpp"
 
+#include "geometry_output.hpp"
 #include "hexact/exact/limit_points.hpp"
 #include "hexact/io/output_file.hpp"
 
@@ -36,7 +37,7 @@ nlohmann::ordered_json facet_entry(const HoneycombMap& map, std::uint32_t f, con
   entry["parent"] = map.facet_level(f) == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(map.facet_parent(f));
   const auto& p = limit.point;
   entry["point"] = {p.x, p.y, p.z};
-  entry["plane"] = {normal.x, normal.y, normal.z, normal.x * p.x + normal.y * p.y + normal.z * p.z};
+  entry["plane"] = {normal.x, normal.y, normal.z, finite_product(normal, p)};
   // Later levels that are snapped have parameters a little above those asked: only the facet itself bounds them.
   const bool as_asked = arithmetic == Arithmetic::rational || arithmetic == Arithmetic::qsqrt5;
   entry["bound"] = as_asked && limit.bound ? *limit.bound : limit.radius;

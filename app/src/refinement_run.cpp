@@ -156,7 +156,7 @@ void refine(std::unique_ptr<Refinement>& current, const SubdivideOptions& option
     }
     if (!options.all_levels.empty()) {
       const std::string path = level_path(options.all_levels, l);
-      write_level(*current, path, output_format(path, options.to), options, common, {});
+      write_level(*current, path, level_format(path, options.to), options, common, {});
     }
     if (stop.finished) {
       totals.stopped = stop.reason;
@@ -177,10 +177,9 @@ std::string report_text(const nlohmann::ordered_json& report) {
 
 }  // namespace
 
-void check_output(const SubdivideOptions& options, const Common& common) {
-  if (common.json && options.output == "-") throw UsageError("--json and -o - both need standard output");
+void check_output(const SubdivideOptions& options) {
   (void)output_format(options.output, options.to);
-  if (!options.all_levels.empty()) (void)level_path(options.all_levels, 0);
+  if (!options.all_levels.empty()) (void)level_format(level_path(options.all_levels, 0), options.to);
 }
 
 BodyInput read_convex(const SubdivideOptions& options) {

@@ -22,8 +22,8 @@ struct RefinementPlan {
   [[nodiscard]] unsigned levels() const noexcept { return honeycomb_levels + chamfer_levels; }
 };
 
-/// Refuses outputs that cannot be: --json with -o -, patterns without a level. Throws UsageError.
-void check_output(const SubdivideOptions& options, const Common& common);
+/// Refuses outputs that cannot be: unknown formats, patterns without a level. Throws UsageError.
+void check_output(const SubdivideOptions& options);
 /// Reads the input. Throws InvalidInput with all findings where it is no convex solid with three facets at every vertex.
 [[nodiscard]] BodyInput read_convex(const SubdivideOptions& options);
 /// Throws ResourceLimit for work that would pass the bounds, before it starts.

@@ -2,13 +2,16 @@
 #include "subdivide.hpp"
 
 #include "body_input.hpp"
+#include "lift_choice.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace hexact::app {
@@ -57,12 +60,55 @@ void settle(const CLI::App& command, SubdivideOptions& options) {
   }
 }
 
+/// The places that the command line names, and what is written there.
+std::vector<std::pair<std::string, std::string>> places(const SubdivideOptions& options) {
+  std::vector<std::pair<std::string, std::string>> result = {{"-o", options.output}};
+  if (!options.limit_points.empty()) result.emplace_back("--limit-points", options.limit_points);
+  if (!options.certificate.empty()) result.emplace_back("--certificate", options.certificate);
+  return result;
+}
+
+bool uses_standard_output(const SubdivideOptions& options) {
+  const auto named = places(options);
+  return std::any_of(named.begin(), named.end(), [](const auto& place) { return place.second == "-"; });
+}
+
+/// Whether --all-levels writes a level to this path.
+bool is_level(const std::filesystem::path& path, const SubdivideOptions& options) {
+  if (options.all_levels.empty()) return false;
+  const unsigned first = options.scheme.starts_with("midedge") ? 0 : 1;
+  const unsigned last = options.levels + (options.then.empty() ? 0 : chamfer_levels(options.then));
+  for (unsigned l = first; l <= last; ++l) {
+    if (std::filesystem::path(level_path(options.all_levels, l)).lexically_normal() == path) return true;
+  }
+  return false;
+}
+
+/// Two results in one place: the second would replace the first, or both would run together on standard output.
+void refuse_shared_places(const SubdivideOptions& options, const Common& common) {
+  std::map<std::filesystem::path, std::string> users;
+  if (common.json) users.emplace("-", "--json");
+  for (const auto& [option, place] : places(options)) {
+    const auto path = std::filesystem::path(place).lexically_normal();
+    const auto [user, is_new] = users.emplace(path, option);
+    if (!is_new && place == "-") throw UsageError(fmt::format("{} and {} - both need standard output", user->second, option));
+    if (!is_new) throw UsageError(fmt::format("{} and {} both name {}", user->second, option, place));
+    if (is_level(path, options)) throw UsageError(fmt::format("--all-levels and {} both name {}", option, place));
+  }
+}
+
 }  // namespace
 
 io::Format output_format(const std::string& path, const std::string& name) {
   if (const auto format = named_format(name)) return *format;
   if (const auto format = io::format_from_path(path)) return *format;
   throw UsageError("the format of " + path + " is not known from its ending; name it with --to");
+}
+
+io::Format level_format(const std::string& path, const std::string& name) {
+  const auto by_ending = io::format_from_path(path);
+  const std::string family = "." + name.substr(0, name.find('-'));
+  return by_ending && !path.ends_with(family) ? *by_ending : output_format(path, name);
 }
 
 std::string level_path(const std::string& pattern, unsigned level) {
@@ -85,7 +131,7 @@ void add_subdivide(const Registry& registry) {
   command->add_option("--from", options->from, "Format of the input");
   command->add_option("--to", options->to, "Format of the output");
   command->add_option("--scheme", options->scheme, "Subdivision scheme")->check(CLI::IsMember(names_of_schemes()));
-  command->add_option("--levels", options->levels, "Number of levels")->check(CLI::Range(0, 1000));
+  command->add_option("--levels", options->levels, "Number of levels; 1 if not given")->check(CLI::Range(0, 1000));
   command->add_option("--parameters", options->parameters,
                       "static, equal-u, constant=B, constant=3:2/5,4:1/4,6:0, random=SEED, tangent=sphere|ellipsoid|FILE, file=JSON");
   command->add_option("--arithmetic", options->arithmetic, "Numbers to compute with; phs: snapped, chamfer: integer, midedge: double if not given")
@@ -107,7 +153,10 @@ void add_subdivide(const Registry& registry) {
   command->callback([registry, options, command] {
     registry.selected = [options, command, &common = registry.common] {
       settle(*command, *options);
-      return schemes().at(options->scheme).refine(*options, common);
+      refuse_shared_places(*options, common);
+      Outcome outcome = schemes().at(options->scheme).refine(*options, common);
+      if (uses_standard_output(*options)) outcome.text.clear();
+      return outcome;
     };
   });
 }

@@ -32,6 +32,9 @@ struct SubdivideOptions {
 
 /// The format of an output by `--to`, else by the ending of its path. Throws UsageError.
 [[nodiscard]] io::Format output_format(const std::string& path, const std::string& name);
+/// The format of a level among `--all-levels`: by the ending of its path, in the encoding of `--to` where that is one of the
+/// same format (`ply-ascii` for `.ply`); by `--to` alone where the ending tells nothing. Throws UsageError.
+[[nodiscard]] io::Format level_format(const std::string& path, const std::string& name);
 /// The path of one level from a pattern with %d or %0Nd. Throws UsageError for other patterns.
 [[nodiscard]] std::string level_path(const std::string& pattern, unsigned level);
 

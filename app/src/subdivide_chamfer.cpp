@@ -23,7 +23,7 @@ BodyInput read_surface(const SubdivideOptions& options) {
 }  // namespace
 
 Outcome subdivide_chamfer(const SubdivideOptions& options, const Common& common) {
-  check_output(options, common);
+  check_output(options);
   RefinementPlan plan;
   plan.chamfer_levels = options.levels;
   plan.lifts = lift_choice(options, 0);

@@ -103,8 +103,8 @@ void check_bounds(const PlaneBody& body, unsigned levels, const Common& common) 
   }
 }
 
-OutputChoice output_of(const SubdivideOptions& options, const std::string& path, const Common& common) {
-  return {path, output_format(path, options.to), {options.color, common.unit}};
+OutputChoice output_of(const SubdivideOptions& options, const std::string& path, io::Format format, const Common& common) {
+  return {path, format, {options.color, common.unit}};
 }
 
 struct Stop {
@@ -155,7 +155,9 @@ Outcome subdivide_chamfer_surface(const BodyInput& input, const SubdivideOptions
     if (!stop.keep_new) break;
     surface = std::move(next);
     rows.push_back(level_row(surface, statistics, seconds));
-    if (!options.all_levels.empty()) write_geometry(output_of(options, level_path(options.all_levels, l), common), surface.body);
+    if (options.all_levels.empty()) continue;
+    const std::string path = level_path(options.all_levels, l);
+    write_geometry(output_of(options, path, level_format(path, options.to), common), surface.body);
   }
   Outcome outcome;
   auto& report = outcome.report;
@@ -175,7 +177,7 @@ Outcome subdivide_chamfer_surface(const BodyInput& input, const SubdivideOptions
       }
     }
   }
-  report["max_rounding"] = write_geometry(output_of(options, options.output, common), surface.body).max_rounding;
+  report["max_rounding"] = write_geometry(output_of(options, options.output, output_format(options.output, options.to), common), surface.body).max_rounding;
   report["max_parameter_change"] = nullptr;
   report["min_parameter"] = nullptr;
   if (!stopped.empty()) report["stopped"] = stopped;

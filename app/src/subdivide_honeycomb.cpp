@@ -57,7 +57,7 @@ PolicySchedule schedule_of(const std::string& text, Arithmetic arithmetic, const
 
 Outcome subdivide_honeycomb(const SubdivideOptions& options, const Common& common) {
   check_combination(options);
-  check_output(options, common);
+  check_output(options);
   RefinementPlan plan;
   plan.honeycomb_levels = options.levels;
   plan.chamfer_levels = chamfer_levels(options.then);

@@ -33,6 +33,7 @@ MidedgePlan plan_of(const SubdivideOptions& options, const MidedgeMap& map) {
   MidedgePlan plan{options.scheme == "midedge" ? MidedgeRule::simple : MidedgeRule::six_point, MidedgeBoundary::dual, false};
   if (options.boundary == "close") plan.boundary = MidedgeBoundary::close;
   if (options.boundary == "drop") plan.boundary = MidedgeBoundary::drop;
+  if (options.limit) require_vertex_limits(map, plan.boundary);
   plan.doubled = !map.closed() && plan.boundary == MidedgeBoundary::dual;
   if (plan.doubled && options.levels % 2 != 0) {
     throw UsageError(fmt::format("the mesh has a boundary, and --boundary dual makes two steps at a time: --levels {} is odd",
@@ -52,12 +53,40 @@ Rational in_field(const QuadraticField& x, const Rational*) {
 double to_double(double x) { return x; }
 double to_double(const Rational& x) { return x.to_double(); }
 
+/// Under `drop` an open mesh loses facets at the boundary, and how many is known for one step only.
+bool is_known_ahead(const MidedgeMap& map, const MidedgePlan& plan) { return map.closed() || plan.boundary != MidedgeBoundary::drop; }
+
+/// What limits take beyond the last level.
+struct LimitNeeds {
+  double facets = 0;  ///< at most, of a mesh that further steps make; 0 under `drop`, where it is not known
+  double bytes = 0;   ///< about
+};
+
+/// `last` are the counts of the last level. Whether facets wait for rings around them is known only on that level; on most
+/// meshes some always do.
+LimitNeeds limit_needs(const MidedgeMap& map, const MidedgeCounts& last, const MidedgePlan& plan, const SubdivideOptions& options) {
+  LimitNeeds needs;
+  // A document holds three fractions of some forty digits for each facet, as values and as text.
+  if (!options.limit_points.empty()) needs.bytes = 4600 * last.facets;
+  if (!is_known_ahead(map, plan) || (options.limit_points.empty() && !options.limit)) return needs;
+  unsigned level = options.levels - map.level();
+  if (options.limit) {  // the whole mesh once more: vertices become facets
+    level += plan.doubled ? 2 : 1;
+    needs.facets = midedge_counts_after(map, level, plan.boundary).facets;
+    needs.bytes += 1000 * needs.facets;
+  }
+  if (plan.rule == MidedgeRule::simple && (map.closed() || plan.boundary == MidedgeBoundary::dual)) return needs;
+  // Some thousands at a time with two rings, which make 25 of one quadrilateral, and each facet becomes four.
+  constexpr double kLargestPart = 4 * 25 * 4096;
+  needs.facets = std::max(needs.facets, std::min(kLargestPart, midedge_counts_after(map, level + 2, plan.boundary).facets));
+  return needs;
+}
+
 /// Refuses work that would pass the bounds, before it starts; under `drop` before each step, as no more is known ahead.
 template <class S>
-void check_bounds(const MidedgeMap& map, const MidedgePlan& plan, unsigned levels, const Common& common) {
-  const bool step_by_step = !map.closed() && plan.boundary == MidedgeBoundary::drop;
-  if (map.level() > 0 && !step_by_step) return;
-  if (step_by_step) levels = std::min(levels, map.level() + 1);
+void check_bounds(const MidedgeMap& map, const MidedgePlan& plan, const SubdivideOptions& options, bool textured, const Common& common) {
+  if (map.level() > 0 && is_known_ahead(map, plan)) return;
+  const unsigned levels = is_known_ahead(map, plan) ? options.levels : std::min(options.levels, map.level() + 1);
   const MidedgeCounts n = midedge_counts_after(map, levels - map.level(), plan.boundary);
   if (2 * n.edges >= 4294967295.0) {
     throw ResourceLimit(fmt::format("level {} would have {:.0f} half-edges; at most 4294967294 are possible", levels, 2 * n.edges));
@@ -65,11 +94,18 @@ void check_bounds(const MidedgeMap& map, const MidedgePlan& plan, unsigned level
   if (common.max_facets > 0 && n.facets > static_cast<double>(common.max_facets)) {
     throw ResourceLimit(fmt::format("level {} would have {:.0f} facets, --max-facets allows {}", levels, n.facets, common.max_facets));
   }
+  const LimitNeeds needs = levels == options.levels ? limit_needs(map, n, plan, options) : LimitNeeds{};
+  if (common.max_facets > 0 && needs.facets > static_cast<double>(common.max_facets)) {
+    throw ResourceLimit(fmt::format("limits of level {} may need further steps to {:.0f} facets, --max-facets allows {}", levels,
+                                    needs.facets, common.max_facets));
+  }
   // Map and points of the last level and the one before it, loops, addresses and text of the output.
-  constexpr double kBytesPerFacet = std::is_same_v<S, double> ? 320 : 1000;
-  if (common.max_memory > 0 && n.facets * kBytesPerFacet > static_cast<double>(common.max_memory)) {
-    throw ResourceLimit(fmt::format("level {} would need about {:.0f} bytes, --max-memory allows {}", levels,
-                                    n.facets * kBytesPerFacet, common.max_memory));
+  constexpr bool kDouble = std::is_same_v<S, double>;
+  const double per_facet = (kDouble ? 320 : 1000) + (textured ? (kDouble ? 200 : 600) : 0);
+  const double bytes = n.facets * per_facet + needs.bytes;
+  if (common.max_memory > 0 && bytes > static_cast<double>(common.max_memory)) {
+    throw ResourceLimit(fmt::format("level {}{} would need about {:.0f} bytes, --max-memory allows {}", levels,
+                                    needs.bytes > 0 ? " with its limits" : "", bytes, common.max_memory));
   }
 }
 
@@ -92,6 +128,17 @@ nlohmann::ordered_json level_row(const MidedgeMap& map, const PointArray<S>& exa
   return row;
 }
 
+/// Double arithmetic may leave its range; nothing about such a level would be true.
+template <class S>
+void require_finite(const PointArray<S>& points, const MeshAttributes<S>& attributes) {
+  if constexpr (std::is_same_v<S, double>) {
+    const auto finite = [](const Point3<double>& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
+    if (!std::all_of(points.begin(), points.end(), finite)) throw ResourceLimit("a coordinate is beyond the finite doubles");
+    const auto& texture = attributes.texture.values;
+    if (!std::all_of(texture.begin(), texture.end(), finite)) throw ResourceLimit("a texture coordinate is beyond the finite doubles");
+  }
+}
+
 /// A level with what it carries.
 template <class S>
 struct CarryingLevel {
@@ -111,8 +158,27 @@ struct CarryingLevel {
       scaled = keeper->scaled(next);
     }
     mesh = std::move(next);
+    require_finite<S>(points(), attributes);
   }
 };
+
+/// The addresses of the map's facets, with levels counted on from those of the input.
+std::vector<FacetAddress> addresses_of(const MidedgeMap& map, const std::vector<FacetAddress>& base) {
+  std::vector<FacetAddress> result;
+  result.reserve(map.facet_count());
+  std::uint32_t before = 0;  // levels that the input already counts
+  for (const FacetAddress& address : base) before = std::max(before, address.level);
+  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
+    FacetAddress address = map.address(f);
+    if (address.parent) {
+      address.level += before;
+    } else if (f < base.size()) {
+      address = base[f];
+    }
+    result.push_back(address);
+  }
+  return result;
+}
 
 template <class S>
 PolygonSoup<S> soup_of(const CarryingLevel<S>& level, std::vector<Point3<S>> points, const std::vector<FacetAddress>& base) {
@@ -121,24 +187,14 @@ PolygonSoup<S> soup_of(const CarryingLevel<S>& level, std::vector<Point3<S>> poi
   soup.points = std::move(points);
   soup.facets = map.loops();
   soup.attributes = level.attributes;
-  std::uint32_t before = 0;  // levels that the input already counts
-  for (const FacetAddress& address : base) before = std::max(before, address.level);
-  for (std::uint32_t f = 0; f < map.facet_count(); ++f) {
-    soup.addresses.push_back(map.address(f));
-    FacetAddress& address = soup.addresses.back();
-    if (address.parent) {
-      address.level += before;
-    } else if (f < base.size()) {
-      address = base[f];
-    }
-  }
+  soup.addresses = addresses_of(map, base);
   return soup;
 }
 
 template <class S>
 WrittenGeometry write_level(const CarryingLevel<S>& level, const std::vector<FacetAddress>& base, const std::string& path,
-                            const SubdivideOptions& options, const Common& common) {
-  const OutputChoice output{path, output_format(path, options.to), {options.color, common.unit}};
+                            io::Format format, const SubdivideOptions& options, const Common& common) {
+  const OutputChoice output{path, format, {options.color, common.unit}};
   return write_geometry(output, soup_of<S>(level, {level.points().begin(), level.points().end()}, base));
 }
 
@@ -160,7 +216,7 @@ template <class S>
 WrittenGeometry write_limit_surface(const CarryingLevel<S>& level, const MidedgeLimitPlan& plan, const std::vector<FacetAddress>& base,
                                     const SubdivideOptions& options, const Common& common) {
   const OutputChoice output{options.output, output_format(options.output, options.to), {options.color, common.unit}};
-  const std::vector<Point3<Rational>> limits = midedge_vertex_limits(exact_level(level), plan);
+  const std::vector<Point3<Rational>> limits = midedge_vertex_limits(exact_level(level), plan, common.work.part(0.92, 0.99));
   std::vector<Point3<S>> points;
   const S* field = nullptr;
   for (const auto& p : limits) points.push_back({in_field(p.x, field), in_field(p.y, field), in_field(p.z, field)});
@@ -206,6 +262,7 @@ std::string report_text(const nlohmann::ordered_json& report) {
                           report["size_factors"][c].get<double>());
     }
   }
+  if (report.contains("limit")) text += "the vertices written are in their limits; the figures are those of the levels before they moved\n";
   return text + fmt::format("written to {}\n", report["output"].get<std::string>());
 }
 
@@ -218,6 +275,7 @@ Outcome report_of(const CarryingLevel<S>& level, const nlohmann::ordered_json& r
   report["boundary"] = level.mesh.map.closed() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.boundary);
   report["levels"] = rows;
   report["output"] = options.output;
+  if (options.limit) report["limit"] = true;
   report["certificate"] = nullptr;
   if (level.keeper) {
     report["size_factors"] = level.keeper->factors();
@@ -231,7 +289,7 @@ template <class S, class Soup>
 Outcome refine(const Soup& input, const SubdivideOptions& options, const Common& common) {
   MidedgeMap map(input.facets, input.points.size());
   const MidedgePlan plan = plan_of(options, map);
-  check_bounds<S>(map, plan, options.levels, common);
+  check_bounds<S>(map, plan, options, !input.attributes.texture.empty(), common);
   CarryingLevel<S> level = level_of<S>(input, std::move(map), options);
 
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -239,13 +297,13 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
     rows.push_back(level_row<S>(level.mesh.map, level.points(), seconds));
     if (options.all_levels.empty()) return;
     const std::string path = level_path(options.all_levels, level.mesh.map.level());
-    (void)write_level(level, input.addresses, path, options, common);
+    (void)write_level(level, input.addresses, path, level_format(path, options.to), options, common);
   };
   show(0);
   while (level.mesh.map.level() < options.levels) {
     // Each level costs about twice the one before.
     common.work.report(0.05 + 0.8 * std::pow(2.0, static_cast<double>(level.mesh.map.level()) - options.levels));
-    if (level.mesh.map.level() > 0) check_bounds<S>(level.mesh.map, plan, options.levels, common);
+    if (level.mesh.map.level() > 0) check_bounds<S>(level.mesh.map, plan, options, !level.attributes.texture.empty(), common);
     const auto begin = Clock::now();
     level.advance(plan);
     show(std::chrono::duration<double>(Clock::now() - begin).count());
@@ -256,14 +314,15 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
   }
   Outcome outcome = report_of(level, rows, options);
   const MidedgeLimitPlan limits{plan.rule, plan.boundary, common.max_facets > 0 ? common.max_facets : kMostLimitFacets};
-  if (!options.limit_points.empty()) write_midedge_limits(options, exact_level(level), limits);
+  common.work.report(0.85);
+  if (!options.limit_points.empty()) write_midedge_limits(options, exact_level(level), addresses_of(level.mesh.map, input.addresses), limits, common.work.part(0.85, 0.92));
   if (options.limit && plan.boundary == MidedgeBoundary::close && !level.mesh.map.closed()) {
     common.remark("subdivide: under --boundary close each boundary loop contracts to one point, the mean of its vertices, and "
                   "--limit puts all of them there");
   }
   const WrittenGeometry written =
       options.limit ? write_limit_surface(level, limits, input.addresses, options, common)
-                    : write_level(level, input.addresses, options.output, options, common);
+                    : write_level(level, input.addresses, options.output, output_format(options.output, options.to), options, common);
   outcome.report["max_rounding"] = written.max_rounding;
   if (options.output != "-") outcome.text = report_text(outcome.report);
   return outcome;
@@ -272,12 +331,11 @@ Outcome refine(const Soup& input, const SubdivideOptions& options, const Common&
 }  // namespace
 
 Outcome subdivide_midedge(const SubdivideOptions& options, const Common& common) {
-  if (common.json && options.output == "-") throw UsageError("--json and -o - both need standard output");
   const io::Format format = output_format(options.output, options.to);
   if (format == io::Format::planes && options.arithmetic == "double") {
     throw UsageError("doubles have no exact planes; write a mesh, or use --arithmetic rational");
   }
-  if (!options.all_levels.empty()) (void)level_path(options.all_levels, 0);
+  if (!options.all_levels.empty()) (void)level_format(level_path(options.all_levels, 0), options.to);
   const ExactSoup input = exact_soup(io::read_geometry(options.input, named_format(options.from)));
   return std::visit(
       [&](const auto& soup) {

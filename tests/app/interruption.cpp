@@ -66,6 +66,30 @@ TEST_CASE("SIGINT and SIGTERM end the work with their own status and leave nothi
   }
 }
 
+TEST_CASE("limits and spectra end at a signal", "[program][progress]") {
+  const program::Folder folder;
+  // A 128-gon with quadrilaterals on all sides but one: exact elimination over 1014 vertices takes many seconds.
+  std::string fan, polygon = "f", sides;
+  for (int i = 0; i < 256; ++i) fan += "v " + std::to_string(i % 128) + " " + std::to_string(i * i % 97) + " " + std::to_string(i / 128) + "\n";
+  for (int i = 1; i <= 128; ++i) polygon += " " + std::to_string(i);
+  for (int i = 1; i < 128; ++i) {
+    sides += "f";
+    for (const int v : {i + 1, i, 128 + i, 129 + i}) sides += " " + std::to_string(v);
+    sides += "\n";
+  }
+  fan += polygon + "\n" + sides;
+  program::write_bytes((folder.path() / "fan.obj").string(), fan);
+  const auto before = listing(folder);
+  const std::string wait = "timeout -k 60 -s INT --preserve-status 1 \"$hexact\" ";
+  for (const std::string command : {"subdivide fan.obj --scheme midedge6 --levels 2 -o x.obj --limit-points x.json",
+                                    "subdivide fan.obj --scheme midedge6 --levels 2 -o x.obj --limit", "spectrum --valence 3..600"}) {
+    const program::Run stopped = run(folder, wait + command);
+    CAPTURE(command, stopped.out, stopped.err);
+    CHECK(stopped.status == 128 + SIGINT);
+    CHECK(listing(folder) == before);
+  }
+}
+
 TEST_CASE("an interrupted crosscheck stops its OpenSCAD", "[program][progress]") {
   const program::Folder folder;
   program::write_bytes((folder.path() / "slow").string(), "#!/bin/sh\necho $$ > \"$PIDFILE\"\nexec sleep 600\n");
