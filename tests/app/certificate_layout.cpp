@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Certificates are read by lines, and a comment is a whole line: both programs agree on what that makes malformed.
 #include "hexact/exact/certify.hpp"
-#include "hexact/exact/regular_smoothness.hpp"
 #include "layout_edits.hpp"
+#include "regular_samples.hpp"
 #include "solid_samples.hpp"
 #include "spectrum_samples.hpp"
 
@@ -12,14 +12,6 @@ using namespace hexact;
 using namespace hexact::spectrum_test;
 
 namespace {
-
-std::string regular_certificate(SpectrumScheme scheme) {
-  SpectrumCertificate certificate;
-  certificate.scheme = scheme;
-  certificate.claims.push_back({SpectrumClaimKind::regular, 0});
-  certificate.regular = regular_smoothness(scheme).evidence;
-  return io::spectrum_certificate_text(certificate);
-}
 
 /// Of a polyhedron.
 int status_by_library(const std::string& text) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // hexact spectrum --regular, and its block in certificates under edits: hexact-check and the library agree.
 #include "dice.hpp"
-#include "hexact/exact/spectrum_certificate.hpp"
 #include "hexact/io/mesh_file.hpp"
-#include "hexact/io/spectrum_certificate_file.hpp"
 #include "hexact/kernel/errors.hpp"
 #include "program.hpp"
+#include "regular_samples.hpp"
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -14,16 +13,9 @@
 #include <map>
 
 using namespace hexact;
+using spectrum_test::regular_certificate;
 
 namespace {
-
-std::string regular_certificate(SpectrumScheme scheme) {
-  SpectrumCertificate certificate;
-  certificate.scheme = scheme;
-  certificate.claims.push_back({SpectrumClaimKind::regular, 0});
-  certificate.regular = regular_smoothness(scheme).evidence;
-  return io::spectrum_certificate_text(certificate);
-}
 
 std::string with_digest(const std::string& text) {
   const std::string before = text.substr(0, text.rfind("sha256 "));
